@@ -1,0 +1,64 @@
+#pragma once
+
+#include <Eigen/Geometry>
+#include <string>
+#include <vector>
+
+#include "spelunk/common/params.h"
+
+namespace spelunk {
+
+enum class SensorKind { kLidar, kDepthCamera };
+
+/// A range sensor as planner and simulator both know it (config/sensors/*.yaml, section
+/// "sensor.<name>"). Angles in the files are degrees. x forward, z up in the sensor frame.
+struct SensorModel {
+  std::string name = "lidar_16";
+  std::string kind = "lidar";  ///< "lidar" or "depth_camera"
+  double fov_horizontal_deg = 360.0;
+  double fov_vertical_deg = 30.0;
+  int rows = 16;
+  int columns = 1800;
+  double range_min_m = 0.4;
+  double range_max_m = 50.0;
+  double rate_hz = 10.0;
+  double range_noise_stddev_m = 0.01;
+  double dropout_probability = 0.0;
+  Eigen::Vector3d mount_m = Eigen::Vector3d::Zero();  ///< Sensor origin in the base frame.
+  double mount_yaw_deg = 0.0;
+  double mount_pitch_deg = 0.0;  ///< Positive looks down.
+  double gain_range_m = 20.0;    ///< How far a planner lets this sensor's rays go for gains.
+  double gain_resolution_deg = 5.0;
+
+  template <class Visitor>
+  void visit(Visitor&& field) {
+    field("kind", kind, Bounds{}, "lidar or depth_camera");
+    field("fov_horizontal_deg", fov_horizontal_deg, Bounds{1.0, 360.0}, "field of view, horizontal");
+    field("fov_vertical_deg", fov_vertical_deg, Bounds{1.0, 180.0}, "field of view, vertical");
+    field("rows", rows, Bounds{1, 4096}, "rays in a column");
+    field("columns", columns, Bounds{1, 8192}, "rays in a row");
+    field("range_min_m", range_min_m, Bounds{0.0, 100.0}, "shorter returns are dropped");
+    field("range_max_m", range_max_m, Bounds{0.5, 500.0}, "the sensor sees no farther");
+    field("rate_hz", rate_hz, Bounds{0.1, 100.0}, "scans a second");
+    field("range_noise_stddev_m", range_noise_stddev_m, Bounds{0.0, 1.0}, "noise of a range");
+    field("dropout_probability", dropout_probability, Bounds{0.0, 1.0}, "share of lost returns");
+    field("mount_m", mount_m, Bounds{-5.0, 5.0}, "sensor origin in the base frame");
+    field("mount_yaw_deg", mount_yaw_deg, Bounds{-180.0, 180.0}, "turn about base z");
+    field("mount_pitch_deg", mount_pitch_deg, Bounds{-90.0, 90.0}, "then about y; + looks down");
+    field("gain_range_m", gain_range_m, Bounds{1.0, 200.0}, "range of the rays of a gain");
+    field("gain_resolution_deg", gain_resolution_deg, Bounds{0.5, 45.0}, "angle between the rays of a gain");
+  }
+  [[nodiscard]] std::vector<std::string> problems() const;
+};
+
+[[nodiscard]] SensorKind kindOf(const SensorModel& sensor);
+
+/// Base from sensor.
+[[nodiscard]] Eigen::Isometry3d T_base_sensor(const SensorModel& sensor);
+
+/// Unit directions of all rays in the sensor frame, row by row from the lowest, each row over the
+/// columns; a lidar's columns divide the horizontal field evenly (a full circle without repeating
+/// its first column), a depth camera's pixels lie evenly on its image plane.
+[[nodiscard]] std::vector<Eigen::Vector3f> rayDirections(const SensorModel& sensor);
+
+}  // namespace spelunk

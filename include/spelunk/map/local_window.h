@@ -1,0 +1,49 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "spelunk/common/box.h"
+#include "spelunk/map/frozen_map.h"
+
+namespace spelunk::map {
+
+/// Dense copy of a region of the map, one byte a voxel: what all inner loops of planning read.
+class LocalWindow {
+ public:
+  /// Copies every voxel that `region` touches. Throws Precondition if the region is empty, not
+  /// finite or larger than 2^31 voxels.
+  LocalWindow(const FrozenMap& map, const AxisAlignedBox& region);
+
+  /// Outside the window: unknown.
+  [[nodiscard]] Occupancy at(const VoxelIndex& index) const {
+    const VoxelIndex local = index - origin_;
+    if ((local.array() < 0).any() || (local.array() >= size_.array()).any())
+      return Occupancy::kUnknown;
+    return static_cast<Occupancy>(cells_[offsetOf(local)]);
+  }
+  [[nodiscard]] Occupancy at(const Eigen::Vector3d& point) const { return at(indexOf(point)); }
+
+  [[nodiscard]] VoxelIndex indexOf(const Eigen::Vector3d& point) const;
+  [[nodiscard]] Eigen::Vector3d centreOf(const VoxelIndex& index) const;
+  [[nodiscard]] double resolution() const { return resolution_m_; }
+  [[nodiscard]] const VoxelIndex& origin() const { return origin_; }  ///< Index of cell (0, 0, 0).
+  [[nodiscard]] const VoxelIndex& size() const { return size_; }
+  [[nodiscard]] const std::vector<std::uint8_t>& cells() const { return cells_; }  ///< x fastest.
+  [[nodiscard]] AxisAlignedBox region() const;
+
+  [[nodiscard]] std::size_t offsetOf(const VoxelIndex& local) const {
+    return static_cast<std::size_t>(local.x()) +
+           static_cast<std::size_t>(size_.x()) *
+               (static_cast<std::size_t>(local.y()) +
+                static_cast<std::size_t>(size_.y()) * static_cast<std::size_t>(local.z()));
+  }
+
+ private:
+  double resolution_m_;
+  VoxelIndex origin_;
+  VoxelIndex size_;
+  std::vector<std::uint8_t> cells_;
+};
+
+}  // namespace spelunk::map

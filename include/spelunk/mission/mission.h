@@ -1,0 +1,146 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "spelunk/common/params.h"
+#include "spelunk/common/robot_model.h"
+#include "spelunk/common/trajectory.h"
+#include "spelunk/map/occupancy_map.h"
+#include "spelunk/planners/exploration_planner.h"
+
+namespace spelunk::mission {
+
+enum class MissionState { kIdle, kExplore, kReposition, kHome, kHold, kDone, kEStop };
+[[nodiscard]] const char* toText(MissionState state);  ///< "Idle", "Explore", ...
+
+/// Parameters of the mission (section "mission").
+struct MissionParams {
+  double reserve_s = 20.0;
+  double reserve_percent = 3.0;
+  double pessimism = 1.25;            ///< Travel times are taken this much longer.
+  double plan_ahead_s = 1.5;          ///< A new path takes over this long after it was asked for.
+  double deviation_max_m = 0.8;
+  double home_radius_m = 1.0;
+  int max_samples = 10000;
+
+  template <class Visitor>
+  void visit(Visitor&& field) {
+    field("reserve_s", reserve_s, Bounds{0.0, 1e5}, "endurance that must be left at home", Audience::kUser);
+    field("reserve_percent", reserve_percent, Bounds{0.0, 90.0}, "the same, of the full endurance", Audience::kUser);
+    field("pessimism", pessimism, Bounds{1.0, 5.0}, "factor on every travel time home", Audience::kUser);
+    field("plan_ahead_s", plan_ahead_s, Bounds{0.0, 30.0}, "the next path starts this far ahead");
+    field("deviation_max_m", deviation_max_m, Bounds{0.05, 10.0}, "farther from the path: hold and replan");
+    field("home_radius_m", home_radius_m, Bounds{0.1, 10.0}, "nearer counts as home");
+    field("max_samples", max_samples, Bounds{10, 10000000}, "samples tried by one plan");
+  }
+};
+
+/// The answer to a request from outside.
+struct Answer {
+  bool accepted = false;
+  std::string reason;
+};
+
+/// What the robot is to do now; replaces what it did before.
+struct Command {
+  Path path;              ///< Empty: stop and hold.
+  Trajectory trajectory;  ///< The same path timed; empty with it.
+  planners::PathKind kind = planners::PathKind::kLocal;
+};
+
+/// A plan to be computed, on data that nobody changes: run it in any thread, or at once.
+struct PlanJob {
+  planners::PlanRequest request;
+  bool explore = true;    ///< false: only the way home is asked for.
+  std::uint64_t number = 0;
+};
+
+/// What a job brought: the plan, and the way home from its end (or from the start if there is none).
+struct PlanOutcome {
+  std::uint64_t number = 0;
+  planners::PlanResult plan;
+  planners::PlanResult home;
+};
+
+[[nodiscard]] PlanOutcome run(const PlanJob& job, planners::ExplorationPlanner& planner);
+
+/// Everything a status line needs.
+struct MissionStatus {
+  double time_s = 0.0;
+  MissionState state = MissionState::kIdle;
+  std::string reason;             ///< Of the newest change or refusal, one sentence.
+  std::string last_plan_status;
+  std::string end_reason;         ///< Why the mission ended; empty before.
+  double known_volume_m3 = 0.0;
+  double remaining_s = 0.0;
+  double way_home_s = 0.0;        ///< Pessimistic.
+  double margin_s = 0.0;          ///< remaining - reserve - way home.
+  double distance_m = 0.0;
+  int plans = 0;
+  int replans_obstacle = 0;
+  int replans_deviation = 0;
+  int refused_paths = 0;
+  planners::PlanStats last_stats;
+  double last_map_update_ms = 0.0;
+};
+
+/// The mission: keeps the map, the state machine, the trail and the endurance guard. It asks for
+/// plans by handing out jobs, checks each result by itself and says what the robot is to do.
+///
+/// Invariant (design, section 4): at every moment there is a known collision-free path home whose
+/// pessimistic travel time fits the remaining endurance; a path is accepted only if that still
+/// holds at its end.
+///
+/// No threads, no clock, no ROS inside: the owner calls from one thread at a time.
+class Mission {
+ public:
+  Mission(const MissionParams& params, const RobotModel& robot, const map::MapParams& map_params,
+          std::uint64_t seed);
+  ~Mission();
+
+  // --- What the robot reports. Odd input is refused with a throttled message, never thrown.
+  void onOdometry(const RobotState& state);
+  map::MapUpdate onScan(const Scan& scan);   ///< Into the map; re-checks path and way home.
+  void onRemaining(double remaining_s);      ///< From the battery; else the time budget counts.
+
+  // --- What people ask for.
+  Answer start();
+  Answer pause();
+  Answer home();
+  Answer emergencyStop();
+  Answer setBounds(const AxisAlignedBox& bounds);
+  Answer setZones(std::vector<NoGoZone> zones);
+
+  // --- The cycle, about 10 Hz.
+  /// Advances the state machine to `now_s`; returns a new command if there is one.
+  std::optional<Command> tick(double now_s);
+  /// A plan that is wanted now, at most one at a time; pass its outcome to `accept`.
+  [[nodiscard]] std::optional<PlanJob> takeJob();
+  /// Checks an outcome and, if it holds, returns the new command.
+  std::optional<Command> accept(const PlanOutcome& outcome, double now_s);
+
+  // --- What there is to see.
+  [[nodiscard]] MissionStatus status() const;
+  [[nodiscard]] const Path& activePath() const;
+  [[nodiscard]] const Path& wayHome() const;   ///< From about here; the best that is known.
+  [[nodiscard]] Path trail() const;
+  [[nodiscard]] const AxisAlignedBox& bounds() const;
+  [[nodiscard]] const std::vector<NoGoZone>& zones() const;
+  [[nodiscard]] const std::vector<planners::RemainingTarget>& remaining() const;
+  [[nodiscard]] map::OccupancyMap& map();
+  [[nodiscard]] const RobotModel& robot() const;
+
+  /// Saves map.bt/.ot, trail, budget, bounds and zones into a folder (with `graph` if given); load
+  /// takes them up again. The text of the Answer names path and reason.
+  Answer save(const std::string& folder, const planners::PlannerGraph& graph);
+  Answer load(const std::string& folder, planners::PlannerGraph* graph);
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace spelunk::mission

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "spelunk/common/params.h"
+#include "spelunk/common/robot_model.h"
+#include "spelunk/planners/exploration_planner.h"
+
+namespace spelunk::planners {
+
+/// Names that makePlanner() knows.
+[[nodiscard]] std::vector<std::string> plannerNames();
+
+/// The planner `name` for this robot, its parameters read from section `name` of `tree` (problems
+/// are added to the tree). Throws OutsideError that lists the known names if there is none such.
+[[nodiscard]] std::unique_ptr<ExplorationPlanner> makePlanner(const std::string& name,
+                                                              ParamTree& tree,
+                                                              const RobotModel& robot,
+                                                              double resolution_m);
+
+}  // namespace spelunk::planners

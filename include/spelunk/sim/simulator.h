@@ -1,0 +1,105 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "spelunk/common/params.h"
+#include "spelunk/common/robot_model.h"
+#include "spelunk/common/scan.h"
+#include "spelunk/common/trajectory.h"
+#include "spelunk/sim/mesh_scene.h"
+#include "spelunk/sim/world_mesh.h"
+
+namespace spelunk::sim {
+
+/// Parameters of the simulated world and robot's body (section "sim").
+struct SimParams {
+  double physics_rate_hz = 400.0;
+  double mass_kg = 3.5;
+  Eigen::Vector3d inertia_kgm2{0.06, 0.06, 0.10};
+  Eigen::Vector3d body_m{0.7, 0.7, 0.3};  ///< Collision body; smaller than the robot's safety box.
+  int rotors = 4;                         ///< 4 or 6
+  double rotor_arm_m = 0.3;
+  double rotor_lag_s = 0.04;
+  double thrust_to_weight = 2.2;
+  double drag_coefficient = 0.25;         ///< N s/m, linear.
+  double hover_power_w = 350.0;
+  double motion_power_w_per_mps2 = 12.0;  ///< Added times speed squared.
+  double battery_wh = 0.0;                ///< 0: what hovering for robot.endurance_s needs.
+  double dust_returns = 0.0;              ///< Mean share of rays that end early in dust.
+  double odometry_drift = 0.0;            ///< Metres of drift a metre flown (1 sigma).
+  double odometry_noise_m = 0.0;          ///< White noise of the position (1 sigma).
+
+  template <class Visitor>
+  void visit(Visitor&& field) {
+    field("physics_rate_hz", physics_rate_hz, Bounds{100.0, 4000.0}, "fixed steps a second");
+    field("mass_kg", mass_kg, Bounds{0.1, 200.0}, "mass of the robot");
+    field("inertia_kgm2", inertia_kgm2, Bounds{1e-4, 100.0}, "principal moments of inertia");
+    field("body_m", body_m, Bounds{0.05, 10.0}, "box that collides with the mesh");
+    field("rotors", rotors, Bounds{4, 6}, "4 or 6");
+    field("rotor_arm_m", rotor_arm_m, Bounds{0.05, 3.0}, "rotor axis to centre");
+    field("rotor_lag_s", rotor_lag_s, Bounds{0.0, 1.0}, "time constant of a rotor");
+    field("thrust_to_weight", thrust_to_weight, Bounds{1.1, 10.0}, "all rotors at full");
+    field("drag_coefficient", drag_coefficient, Bounds{0.0, 20.0}, "N s/m");
+    field("hover_power_w", hover_power_w, Bounds{1.0, 1e4}, "electrical, hovering");
+    field("motion_power_w_per_mps2", motion_power_w_per_mps2, Bounds{0.0, 1e4}, "times speed squared");
+    field("battery_wh", battery_wh, Bounds{0.0, 1e5}, "0: from robot.endurance_s");
+    field("dust_returns", dust_returns, Bounds{0.0, 1.0}, "share of rays that dust returns");
+    field("odometry_drift", odometry_drift, Bounds{0.0, 0.2}, "m a metre, 1 sigma");
+    field("odometry_noise_m", odometry_noise_m, Bounds{0.0, 1.0}, "white, 1 sigma");
+  }
+};
+
+struct BatteryState {
+  double energy_wh = 0.0;
+  double fraction = 1.0;        ///< 0 .. 1
+  double power_w = 0.0;
+  double remaining_s = 0.0;     ///< At the present mean power.
+};
+
+struct CollisionCount {
+  int episodes = 0;             ///< Contacts with the mesh, each counted once until parted for 0.5 s.
+  double seconds = 0.0;         ///< Time in contact.
+};
+
+/// One scan with every simulated ray, for the mapping robot and for the referee.
+struct SimulatedScan {
+  Scan scan;                              ///< What the robot gets (odometry's pose, noisy hits).
+  Eigen::Isometry3d T_world_sensor_true = Eigen::Isometry3d::Identity();
+  std::shared_ptr<const std::vector<Eigen::Vector3f>> directions;  ///< Sensor frame.
+  std::vector<float> true_ranges;         ///< One a direction; range_max where nothing was hit.
+  float range_max_m = 0.0F;
+};
+
+/// A robot in a mesh: fixed-step rigid-body physics, sensors, battery, odometry. The same seed and
+/// commands give the same run, bit by bit. Knows nothing of planners and maps.
+class Simulator {
+ public:
+  /// Throws OutsideError if the start lies in collision or outside the mesh's bounds.
+  Simulator(const SimParams& params, const RobotModel& robot, const WorldMesh& mesh,
+            const Pose& start, std::uint64_t seed);
+  ~Simulator();
+
+  /// The robot follows `trajectory` (times in this simulator's time) until told otherwise; an empty
+  /// one stops and holds.
+  void follow(Trajectory trajectory);
+
+  /// Advances by fixed steps up to `time_s`; returns the scans that fell due, in order of time.
+  std::vector<SimulatedScan> advanceTo(double time_s);
+
+  [[nodiscard]] double time() const;
+  [[nodiscard]] RobotState trueState() const;
+  [[nodiscard]] RobotState odometry() const;
+  [[nodiscard]] BatteryState battery() const;
+  [[nodiscard]] CollisionCount collisions() const;
+  [[nodiscard]] const MeshScene& scene() const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace spelunk::sim
