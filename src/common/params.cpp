@@ -61,6 +61,13 @@ void flatten(const YAML::Node& node, const std::string& prefix, const std::strin
   }
 }
 
+std::string ambiguity(const std::string& name, const std::string& origin,
+                      const std::set<std::string>& readers) {
+  std::string text = name + " (" + origin + "): fits several parameters; write one of";
+  for (const std::string& reader : readers) text += " " + reader;
+  return text;
+}
+
 std::size_t editDistance(const std::string& a, const std::string& b) {
   std::vector<std::size_t> row(b.size() + 1);
   std::iota(row.begin(), row.end(), std::size_t{0});
@@ -122,7 +129,7 @@ const ParamTree::Entry* ParamTree::find(const std::string& name) {
   for (const std::string& candidate : {bare, name}) {
     const auto entry = entries_.find(candidate);
     if (entry == entries_.end()) continue;
-    consumed_.insert(candidate);
+    consumed_[candidate].insert(name);
     return &entry->second;
   }
   return nullptr;
@@ -201,7 +208,11 @@ void ParamTree::readField(const std::string& name, std::vector<std::string>& val
 void ParamTree::requireClean() const {
   std::vector<std::string> all = problems_;
   for (const auto& [name, entry] : entries_) {
-    if (consumed_.count(name) > 0) continue;
+    const auto readers = consumed_.find(name);
+    if (readers != consumed_.end()) {
+      if (readers->second.size() > 1) all.push_back(ambiguity(name, entry.origin, readers->second));
+      continue;
+    }
     const std::string hint = nearestName(name, known_);
     all.push_back(name + " (" + entry.origin + "): no such parameter" +
                   (hint.empty() ? "" : "; did you mean " + hint + "?"));
