@@ -3,8 +3,9 @@
 #include <yaml-cpp/yaml.h>
 
 #include <algorithm>
-#include <charconv>
+#include <cctype>
 #include <cmath>
+#include <locale>
 #include <numeric>
 #include <optional>
 #include <sstream>
@@ -21,12 +22,18 @@ std::string trimmed(const std::string& text) {
 }
 
 std::optional<double> parseDouble(const std::string& raw) {
-  const std::string text = trimmed(raw);
+  std::string text = trimmed(raw);
+  const bool is_negative = !text.empty() && text.front() == '-';
+  if (text.size() > 1 && (is_negative || text.front() == '+')) text.erase(0, 1);
+  if (text == "inf" || text == ".inf")
+    return (is_negative ? -1.0 : 1.0) * std::numeric_limits<double>::infinity();
+  std::istringstream stream(text);
+  stream.imbue(std::locale::classic());
   double value = 0.0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc() || end != text.data() + text.size() || std::isnan(value))
-    return std::nullopt;
-  return value;
+  const bool starts_as_number =
+      !text.empty() && (text[0] == '.' || std::isdigit(static_cast<unsigned char>(text[0])));
+  if (!starts_as_number || !(stream >> value) || stream.peek() != EOF) return std::nullopt;
+  return is_negative ? -value : value;
 }
 
 std::vector<std::string> splitList(const std::string& raw) {
@@ -225,9 +232,11 @@ void ParamTree::requireClean() const {
 
 std::string toText(double value) {
   if (std::isinf(value)) return value > 0 ? "inf" : "-inf";
-  char buffer[32];
-  const auto end = std::to_chars(buffer, buffer + sizeof buffer, value).ptr;
-  return std::string(buffer, end);
+  std::ostringstream stream;
+  stream.imbue(std::locale::classic());
+  stream.precision(12);
+  stream << value;
+  return stream.str();
 }
 std::string toText(int value) { return std::to_string(value); }
 std::string toText(bool value) { return value ? "true" : "false"; }

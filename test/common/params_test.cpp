@@ -103,6 +103,23 @@ TEST(ParamTree, NotANumberIsRefused) {
   EXPECT_EQ(params.length_m, 1.0);
 }
 
+TEST(ParamTree, NumbersAreReadWholeOrNotAtAll) {
+  const auto isRead = [](const std::string& text) {
+    ParamTree tree;
+    tree.setAssignment("s.size_m=[" + text + ", 1, 1]", "--set");
+    SampleParams params;
+    tree.read("s", params);
+    try {
+      tree.requireClean();
+      return true;
+    } catch (const OutsideError&) {
+      return false;
+    }
+  };
+  for (const char* good : {"1", "+2", ".5", "1e-3", " 8.0 "}) EXPECT_TRUE(isRead(good)) << good;
+  for (const char* bad : {"", "-", "1m", "1 2", "e5", "--1", "0x"}) EXPECT_FALSE(isRead(bad)) << bad;
+}
+
 TEST(ParamTree, NamesAMissingOrBrokenFile) {
   ParamTree tree;
   EXPECT_NE(messageOf([&] { tree.addYamlFile("/none/such.yaml"); }).find("/none/such.yaml"),
