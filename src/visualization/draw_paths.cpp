@@ -1,0 +1,70 @@
+#include "spelunk/visualization/draw.h"
+
+#include <cmath>
+
+namespace spelunk::visualization {
+namespace {
+
+void drawLine(const std::string& layer, const Path& path, Colour colour, double width_m,
+              Scene& scene) {
+  if (path.size() < 2) return;
+  Element line;
+  line.layer = layer;
+  line.shape = Shape::kLineStrip;
+  line.size_m = width_m;
+  line.colours = {colour};
+  for (const Pose& pose : path) line.points.push_back(pose.position);
+  scene.add(std::move(line));
+}
+
+Colour colourOf(planners::PathKind kind) {
+  switch (kind) {
+    case planners::PathKind::kLocal: return {0.15F, 0.95F, 0.35F, 1.0F};
+    case planners::PathKind::kReposition: return {1.0F, 0.55F, 0.1F, 1.0F};
+    case planners::PathKind::kHome: return {0.3F, 0.7F, 1.0F, 1.0F};
+  }
+  return {};
+}
+
+}  // namespace
+
+void drawActivePath(const Path& path, planners::PathKind kind, Scene& scene) {
+  if (path.empty()) return;
+  drawLine("path", path, colourOf(kind), 0.16, scene);
+  Element end;
+  end.layer = "path";
+  end.shape = Shape::kSpheres;
+  end.size_m = 0.45;
+  end.colours = {colourOf(kind)};
+  end.points = {path.back().position};
+  scene.add(std::move(end));
+}
+
+void drawWayHome(const Path& path, Scene& scene) {
+  drawLine("way_home", path, {0.3F, 0.7F, 1.0F, 0.7F}, 0.08, scene);
+}
+
+void drawTrail(const Path& path, Scene& scene) {
+  drawLine("trail", path, {0.9F, 0.9F, 0.9F, 0.8F}, 0.06, scene);
+}
+
+void drawRobot(const Pose& pose, const Eigen::Vector3d& box_m, Scene& scene) {
+  Element body;
+  body.layer = "robot";
+  body.shape = Shape::kBox;
+  body.points = {pose.position};
+  body.extents_m = box_m;  // The planner's box does not turn with the robot.
+  body.colours = {{1.0F, 0.85F, 0.2F, 0.9F}};
+  scene.add(std::move(body));
+
+  Element heading;
+  heading.layer = "robot";
+  heading.shape = Shape::kLineStrip;
+  heading.size_m = 0.12;
+  heading.colours = {{0.9F, 0.1F, 0.1F, 1.0F}};
+  const Eigen::Vector3d ahead(std::cos(pose.yaw), std::sin(pose.yaw), 0.0);
+  heading.points = {pose.position, pose.position + 0.8 * box_m.x() * ahead};
+  scene.add(std::move(heading));
+}
+
+}  // namespace spelunk::visualization
