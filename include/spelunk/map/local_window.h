@@ -1,9 +1,11 @@
 #pragma once
 
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "spelunk/common/box.h"
+#include "spelunk/common/contract.h"
 #include "spelunk/map/frozen_map.h"
 
 namespace spelunk::map {
@@ -14,6 +16,14 @@ class LocalWindow {
   /// Copies every voxel that `region` touches. Throws Precondition if the region is empty, not
   /// finite or larger than 2^31 voxels.
   LocalWindow(const FrozenMap& map, const AxisAlignedBox& region);
+
+  /// The same region with other contents, one byte a voxel as in cells().
+  [[nodiscard]] LocalWindow withCells(std::vector<std::uint8_t> cells) const {
+    require(cells.size() == cells_.size(), "LocalWindow: cells of another size");
+    LocalWindow changed(resolution_m_, origin_, size_);
+    changed.cells_ = std::move(cells);
+    return changed;
+  }
 
   /// Outside the window: unknown.
   [[nodiscard]] Occupancy at(const VoxelIndex& index) const {
@@ -40,6 +50,9 @@ class LocalWindow {
   }
 
  private:
+  LocalWindow(double resolution_m, VoxelIndex origin, VoxelIndex size)
+      : resolution_m_(resolution_m), origin_(std::move(origin)), size_(std::move(size)) {}
+
   double resolution_m_;
   VoxelIndex origin_;
   VoxelIndex size_;
