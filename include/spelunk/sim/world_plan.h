@@ -1,0 +1,67 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "spelunk/common/pose.h"
+
+namespace spelunk::sim {
+
+/// One cross-section of a passage: the middle of its floor and the free width and height there.
+struct Station {
+  Eigen::Vector3d floor = Eigen::Vector3d::Zero();
+  double width = 3.0;
+  double height = 3.0;
+};
+
+/// A gallery along a polyline of at least two stations, linear in between, round at its ends.
+struct Passage {
+  std::vector<Station> stations;
+};
+
+/// A dome over an elliptic floor.
+struct Chamber {
+  Eigen::Vector3d floor = Eigen::Vector3d::Zero();
+  Eigen::Vector2d radii{5.0, 5.0};
+  double height = 4.0;
+};
+
+/// A room with upright walls, parallel to the axes.
+struct Hall {
+  Eigen::Vector3d floor = Eigen::Vector3d::Zero();  ///< Centre of the floor.
+  Eigen::Vector2d size{10.0, 10.0};
+  double height = 4.0;
+};
+
+/// Rock left standing from floor to roof, parallel to the axes.
+struct Pillar {
+  Eigen::Vector2d centre = Eigen::Vector2d::Zero();
+  Eigen::Vector2d size{1.0, 1.0};
+};
+
+/// A world before it becomes a mesh: the space that is free for certain. Metres, world frame, z up.
+/// Roughness only carves further into the rock, so widths and heights are guaranteed minima up to
+/// about a tenth of `cell_m`.
+struct WorldPlan {
+  std::string name;
+  std::vector<Passage> passages;
+  std::vector<Chamber> chambers;
+  std::vector<Hall> halls;
+  std::vector<Pillar> pillars;
+  Pose start;
+  double roughness_m = 0.3;  ///< Greatest depth of the roughness of walls; floors have a quarter.
+  double blend_m = 0.8;      ///< Over this distance neighbouring spaces run into each other.
+  double cell_m = 0.5;       ///< Grid of the surface.
+  std::uint64_t seed = 1;
+};
+
+/// Reads a description (worlds/<name>.yaml) and lays the world out. Every number has a unit in its
+/// name and a range. Throws OutsideError with all problems and the list of known names.
+[[nodiscard]] WorldPlan planWorld(const std::string& description_path);
+
+/// Length of all passages, metres.
+[[nodiscard]] double passageLength(const WorldPlan& plan);
+
+}  // namespace spelunk::sim

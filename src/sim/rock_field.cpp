@@ -1,0 +1,166 @@
+#include "rock_field.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "rock_noise.h"
+
+namespace spelunk::sim {
+namespace {
+
+constexpr double kRock = 1e3;
+constexpr double kBelowFloor = 0.8;  ///< How far a space's body reaches under its own floor.
+
+double mix(double a, double b, double t) { return a + (b - a) * t; }
+
+/// Signed distance to a rounded corner region q <= 0 of two half spaces.
+double roundedCorner(double qx, double qy, double radius) {
+  const double x = qx + radius;
+  const double y = qy + radius;
+  const double outside =
+      std::sqrt(std::max(x, 0.0) * std::max(x, 0.0) + std::max(y, 0.0) * std::max(y, 0.0));
+  return outside + std::min(std::max(x, y), 0.0) - radius;
+}
+
+}  // namespace
+
+RockField::RockField(const WorldPlan& plan)
+    : pillars_(plan.pillars),
+      roughness_m_(plan.roughness_m),
+      blend_m_(plan.blend_m),
+      cell_m_(plan.cell_m),
+      seed_(plan.seed) {
+  int group = 0;
+  for (const Passage& passage : plan.passages) {
+    for (std::size_t i = 1; i < passage.stations.size(); ++i)
+      add({Shape::kSegment, group, passage.stations[i - 1], passage.stations[i], {}, {}});
+    ++group;
+  }
+  for (const Chamber& chamber : plan.chambers)
+    add({Shape::kChamber, group++, {chamber.floor, 0.0, chamber.height}, {}, chamber.radii, {}});
+  for (const Hall& hall : plan.halls)
+    add({Shape::kHall, group++, {hall.floor, 0.0, hall.height}, {}, hall.size / 2.0, {}});
+}
+
+void RockField::add(Space space) {
+  const bool is_segment = space.shape == Shape::kSegment;
+  const Station& other = is_segment ? space.b : space.a;
+  const double half_x = is_segment ? std::max(space.a.width, space.b.width) / 2 : space.half.x();
+  const double half_y = is_segment ? half_x : space.half.y();
+  space.reach.min = space.a.floor.cwiseMin(other.floor) - Eigen::Vector3d(half_x, half_y, 0.0);
+  space.reach.max = space.a.floor.cwiseMax(other.floor) +
+                    Eigen::Vector3d(half_x, half_y, std::max(space.a.height, other.height));
+  const Eigen::Vector3d margin =
+      Eigen::Vector3d::Constant(roughness_m_ + blend_m_ / 4.0 + 2.0 * cell_m_);
+  space.reach.min -= margin;
+  space.reach.max += margin;
+  spaces_.push_back(space);
+}
+
+AxisAlignedBox RockField::bounds() const {
+  AxisAlignedBox box = spaces_.front().reach;
+  for (const Space& space : spaces_) box = hull(box, space.reach);
+  return box;
+}
+
+RockField::Selection RockField::select(const AxisAlignedBox& region) const {
+  const Eigen::Vector3d margin = Eigen::Vector3d::Constant(blend_m_);
+  const AxisAlignedBox near{region.min - margin, region.max + margin};
+  Selection selection;
+  bool touches = false;
+  for (std::size_t i = 0; i < spaces_.size(); ++i) {
+    if (intersection(spaces_[i].reach, near).isEmpty()) continue;
+    touches = touches || !intersection(spaces_[i].reach, region).isEmpty();
+    selection.spaces.push_back(i);
+  }
+  return touches ? selection : Selection{};
+}
+
+RockField::Sample RockField::sampleSegment(const Space& space, const Eigen::Vector3d& point) {
+  const Eigen::Vector2d axis = (space.b.floor - space.a.floor).head<2>();
+  const Eigen::Vector2d from_a = (point - space.a.floor).head<2>();
+  const double length2 = axis.dot(axis);
+  const double t = length2 > 0.0 ? std::clamp(from_a.dot(axis) / length2, 0.0, 1.0) : 0.0;
+  const double lateral = std::sqrt((from_a - t * axis).squaredNorm());
+  const double half_width = mix(space.a.width, space.b.width, t) / 2.0;
+  const double height = mix(space.a.height, space.b.height, t);
+  const double floor = mix(space.a.floor.z(), space.b.floor.z(), t);
+  const double arch = 0.7 * std::min(half_width, height / 2.0);
+  const double above = roundedCorner(lateral - half_width, point.z() - floor - height, arch);
+  return {std::max(above, floor - kBelowFloor - point.z()), floor};
+}
+
+RockField::Sample RockField::sampleChamber(const Space& space, const Eigen::Vector3d& point) {
+  const double middle = 0.25 * space.a.height;  // The dome's widest level above its floor.
+  const Eigen::Vector3d radii(space.half.x(), space.half.y(), space.a.height - middle);
+  const Eigen::Vector3d p = point - space.a.floor - Eigen::Vector3d(0.0, 0.0, middle);
+  const Eigen::Vector3d scaled = p.cwiseQuotient(radii);
+  const double k0 = std::sqrt(scaled.squaredNorm());
+  const double k1 = std::sqrt(scaled.cwiseQuotient(radii).squaredNorm());
+  const double distance = k1 > 0.0 ? k0 * (k0 - 1.0) / k1 : -radii.minCoeff();
+  return {distance, space.a.floor.z()};
+}
+
+RockField::Sample RockField::sampleHall(const Space& space, const Eigen::Vector3d& point) {
+  constexpr double kEdgeRadius = 0.3;
+  const Eigen::Vector2d q = (point - space.a.floor).head<2>().cwiseAbs() - space.half;
+  const double walls = roundedCorner(q.x(), q.y(), kEdgeRadius);
+  const double floor = space.a.floor.z();
+  const double above = roundedCorner(walls, point.z() - floor - space.a.height, kEdgeRadius);
+  return {std::max(above, floor - kBelowFloor - point.z()), floor};
+}
+
+RockField::Sample RockField::sample(const Space& space, const Eigen::Vector3d& point) {
+  switch (space.shape) {
+    case Shape::kSegment:
+      return sampleSegment(space, point);
+    case Shape::kChamber:
+      return sampleChamber(space, point);
+    case Shape::kHall:
+      return sampleHall(space, point);
+  }
+  return {kRock, 0.0};
+}
+
+RockField::Sample RockField::blended(const Eigen::Vector3d& point,
+                                     const Selection& selection) const {
+  Sample total{kRock, 0.0};
+  for (std::size_t i = 0; i < selection.spaces.size();) {
+    const int group = spaces_[selection.spaces[i]].group;
+    Sample next{kRock, 0.0};
+    for (; i < selection.spaces.size() && spaces_[selection.spaces[i]].group == group; ++i) {
+      const Sample candidate = sample(spaces_[selection.spaces[i]], point);
+      if (candidate.body < next.body) next = candidate;
+    }
+    const double share = std::clamp(0.5 + 0.5 * (total.body - next.body) / blend_m_, 0.0, 1.0);
+    total.body = mix(total.body, next.body, share) - blend_m_ * share * (1.0 - share);
+    total.floor = mix(total.floor, next.floor, share);
+  }
+  return total;
+}
+
+double RockField::roughness(const Eigen::Vector3d& point, double above_floor) const {
+  if (roughness_m_ <= 0.0) return 0.0;
+  const double coarse = rockNoise(point, std::max(3.5, 5.0 * cell_m_), seed_);
+  const double fine = rockNoise(point, std::max(1.3, 2.5 * cell_m_), seed_ + 1);
+  const double wall_share = std::clamp(above_floor / 0.8, 0.0, 1.0);
+  return roughness_m_ * mix(0.25, 1.0, wall_share) * (0.7 * coarse + 0.3 * fine);
+}
+
+double RockField::at(const Eigen::Vector3d& point, const Selection& selection) const {
+  const Sample free = blended(point, selection);
+  double value = std::max(free.body, free.floor - point.z());
+  for (const Pillar& pillar : pillars_) {
+    constexpr double kEdgeRadius = 0.3;
+    const Eigen::Vector2d q = (point.head<2>() - pillar.centre).cwiseAbs() - pillar.size / 2.0;
+    value = std::max(value, -roundedCorner(q.x(), q.y(), kEdgeRadius));
+  }
+  if (value > roughness_m_ + cell_m_) return value;
+  return value - roughness(point, point.z() - free.floor);
+}
+
+double RockField::at(const Eigen::Vector3d& point) const {
+  return at(point, select({point, point}));
+}
+
+}  // namespace spelunk::sim
