@@ -1,0 +1,40 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "spelunk/common/rng.h"
+#include "spelunk/common/sensor_model.h"
+#include "spelunk/sim/mesh_scene.h"
+#include "spelunk/sim/simulator.h"
+
+namespace spelunk::sim {
+
+/// One LiDAR or depth camera on the robot. All rays of a scan leave at the scan's instant.
+class RangeSensor {
+ public:
+  /// `dust_returns` is the mean share of rays that end early in dust.
+  RangeSensor(const SensorModel& model, double dust_returns, const Rng& rng);
+
+  /// Time of the next scan, seconds: the n-th lies at n / rate.
+  [[nodiscard]] double nextScanTime() const;
+
+  /// Takes the next scan. `T_world_base_true` places the rays, `T_world_base_odometry` is what the
+  /// robot believes.
+  SimulatedScan scan(const MeshScene& scene, const Eigen::Isometry3d& T_world_base_true,
+                     const Eigen::Isometry3d& T_world_base_odometry, double stamp_s);
+
+ private:
+  std::vector<Eigen::Vector3f> disturbedPoints(const std::vector<float>& ranges,
+                                               std::uint64_t scan_key) const;
+
+  SensorModel model_;
+  double dust_returns_;
+  std::uint64_t key_;
+  Eigen::Isometry3d T_base_sensor_;
+  std::shared_ptr<const std::vector<Eigen::Vector3f>> directions_;
+  std::vector<Eigen::Vector3f> world_directions_;  ///< Scratch.
+  std::uint64_t scans_taken_ = 0;
+};
+
+}  // namespace spelunk::sim

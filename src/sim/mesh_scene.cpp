@@ -1,0 +1,189 @@
+#include "spelunk/sim/mesh_scene.h"
+
+#include <embree3/rtcore.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <string>
+
+#include "spelunk/common/contract.h"
+#include "spelunk/common/log.h"
+#include "spelunk/sim/triangle_distance.h"
+
+namespace spelunk::sim {
+namespace {
+
+/// Rays traced together. Neighbouring rays of a scan stay in one packet: they walk the same nodes.
+constexpr std::size_t kPacket = 8;
+
+/// Embree would take the widest instruction set of the machine, and different ones round ranges
+/// differently. AVX2 is the lowest that is 18 times faster than Bullet's rayTest in a mine (35 x;
+/// AVX 19 x without margin, SSE4.2 12 x); its packets hold eight rays.
+constexpr const char* kPinned = "threads=1,isa=avx2";
+constexpr const char* kFallback = "threads=1,isa=sse4.2";
+
+RTCDevice makeDevice() {
+  const bool has_avx2 = __builtin_cpu_supports("avx2") != 0;
+  if (!has_avx2)
+    log(LogLevel::kWarn,
+        "this processor has no AVX2: simulated rays are slower, and runs may differ in the last "
+        "digit from those of other machines");
+  RTCDevice device = rtcNewDevice(has_avx2 ? kPinned : kFallback);
+  if (device == nullptr) throw OutsideError("Embree cannot start; install libembree3 3.13");
+  return device;
+}
+
+/// What one distance query carries through the tree.
+struct DistanceQuery {
+  const WorldMesh* mesh;
+  Eigen::Vector3d centre;
+  Eigen::Vector3d half_extents;
+  double best_squared;
+};
+
+Triangle triangleAt(const WorldMesh& mesh, unsigned index, const Eigen::Vector3d& origin) {
+  const Eigen::Vector3i& corners = mesh.triangles[index];
+  Triangle triangle;
+  for (int k = 0; k < 3; ++k)
+    triangle[static_cast<std::size_t>(k)] =
+        mesh.vertices[static_cast<std::size_t>(corners[k])].cast<double>() - origin;
+  return triangle;
+}
+
+/// The tree culls by a sphere around the box's centre; what is nearer to the box than the best so
+/// far lies within that plus half the box's diagonal. Padded against the tree's single precision.
+float searchRadius(double distance, const Eigen::Vector3d& half_extents) {
+  return static_cast<float>((distance + half_extents.norm()) * (1.0 + 1e-5) + 1e-3);
+}
+
+bool visitTriangle(RTCPointQueryFunctionArguments* arguments) {
+  auto& query = *static_cast<DistanceQuery*>(arguments->userPtr);
+  const Triangle triangle = triangleAt(*query.mesh, arguments->primID, query.centre);
+  const double squared = boxTriangleDistanceSquared(query.half_extents, triangle);
+  if (squared >= query.best_squared) return false;
+  query.best_squared = squared;
+  arguments->query->radius = searchRadius(std::sqrt(squared), query.half_extents);
+  return true;
+}
+
+bool visitTriangleForPoint(RTCPointQueryFunctionArguments* arguments) {
+  auto& query = *static_cast<DistanceQuery*>(arguments->userPtr);
+  const Triangle triangle = triangleAt(*query.mesh, arguments->primID, query.centre);
+  const double squared = pointTriangleDistanceSquared(Eigen::Vector3d::Zero(), triangle);
+  if (squared >= query.best_squared) return false;
+  query.best_squared = squared;
+  arguments->query->radius = searchRadius(std::sqrt(squared), Eigen::Vector3d::Zero());
+  return true;
+}
+
+void fillPacket(const Eigen::Vector3f& origin, const Eigen::Vector3f* directions, std::size_t count,
+                float range_max, RTCRayHit8& packet) {
+  for (std::size_t k = 0; k < kPacket; ++k) {
+    const Eigen::Vector3f& direction = directions[std::min(k, count - 1)];
+    packet.ray.org_x[k] = origin.x();
+    packet.ray.org_y[k] = origin.y();
+    packet.ray.org_z[k] = origin.z();
+    packet.ray.dir_x[k] = direction.x();
+    packet.ray.dir_y[k] = direction.y();
+    packet.ray.dir_z[k] = direction.z();
+    packet.ray.tnear[k] = 0.0F;
+    packet.ray.tfar[k] = range_max;
+    packet.ray.mask[k] = ~0U;
+    packet.ray.flags[k] = 0;
+    packet.ray.time[k] = 0.0F;
+    packet.hit.geomID[k] = RTC_INVALID_GEOMETRY_ID;
+    packet.hit.instID[0][k] = RTC_INVALID_GEOMETRY_ID;
+  }
+}
+
+}  // namespace
+
+struct MeshScene::Impl {
+  explicit Impl(const WorldMesh& world) : mesh(world), device(makeDevice()) {
+    scene = rtcNewScene(device);
+    rtcSetSceneBuildQuality(scene, RTC_BUILD_QUALITY_HIGH);
+    RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
+    auto* vertices = static_cast<float*>(
+        rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
+                                3 * sizeof(float), mesh.vertices.size()));
+    for (const Eigen::Vector3f& vertex : mesh.vertices)
+      for (int k = 0; k < 3; ++k) *vertices++ = vertex[k];
+    auto* indices = static_cast<unsigned*>(
+        rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
+                                3 * sizeof(unsigned), mesh.triangles.size()));
+    for (const Eigen::Vector3i& triangle : mesh.triangles)
+      for (int k = 0; k < 3; ++k) *indices++ = static_cast<unsigned>(triangle[k]);
+    rtcCommitGeometry(geometry);
+    rtcAttachGeometry(scene, geometry);
+    rtcReleaseGeometry(geometry);
+    rtcCommitScene(scene);
+    if (const RTCError error = rtcGetDeviceError(device); error != RTC_ERROR_NONE)
+      throw OutsideError("Embree cannot build the world '" + mesh.name + "' (error " +
+                         std::to_string(error) + "); check the mesh");
+  }
+  ~Impl() {
+    rtcReleaseScene(scene);
+    rtcReleaseDevice(device);
+  }
+  Impl(const Impl&) = delete;
+  Impl& operator=(const Impl&) = delete;
+
+  double search(DistanceQuery query, double limit_m, RTCPointQueryFunction visit) const {
+    alignas(16) RTCPointQuery ball{};
+    ball.x = static_cast<float>(query.centre.x());
+    ball.y = static_cast<float>(query.centre.y());
+    ball.z = static_cast<float>(query.centre.z());
+    ball.radius = searchRadius(limit_m, query.half_extents);
+    RTCPointQueryContext context;
+    rtcInitPointQueryContext(&context);
+    rtcPointQuery(scene, &ball, &context, visit, &query);
+    return std::sqrt(query.best_squared);
+  }
+
+  WorldMesh mesh;
+  RTCDevice device;
+  RTCScene scene = nullptr;
+};
+
+MeshScene::MeshScene(const WorldMesh& mesh) {
+  require(!mesh.triangles.empty(), "MeshScene: the mesh holds no triangles");
+  impl_ = std::make_unique<Impl>(mesh);
+}
+MeshScene::~MeshScene() = default;
+MeshScene::MeshScene(MeshScene&&) noexcept = default;
+
+void MeshScene::castFan(const Eigen::Vector3f& origin,
+                        const std::vector<Eigen::Vector3f>& directions, float range_max,
+                        std::vector<float>& ranges) const {
+  ranges.resize(directions.size());
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+  alignas(32) RTCRayHit8 packet;
+  alignas(32) std::array<int, kPacket> valid{};
+  for (std::size_t first = 0; first < directions.size(); first += kPacket) {
+    const std::size_t count = std::min(kPacket, directions.size() - first);
+    for (std::size_t k = 0; k < kPacket; ++k) valid[k] = k < count ? -1 : 0;
+    fillPacket(origin, &directions[first], count, range_max, packet);
+    rtcIntersect8(valid.data(), impl_->scene, &context, &packet);
+    std::copy_n(packet.ray.tfar, count, &ranges[first]);
+  }
+}
+
+double MeshScene::distanceTo(const Eigen::Vector3d& point, double limit_m) const {
+  require(limit_m >= 0.0 && point.allFinite(), "MeshScene::distanceTo: bad point or limit");
+  return impl_->search({&impl_->mesh, point, Eigen::Vector3d::Zero(), limit_m * limit_m}, limit_m,
+                       visitTriangleForPoint);
+}
+
+double MeshScene::boxDistance(const Eigen::Vector3d& centre, const Eigen::Vector3d& size,
+                              double limit_m) const {
+  require(limit_m >= 0.0 && centre.allFinite() && (size.array() >= 0.0).all(),
+          "MeshScene::boxDistance: bad box or limit");
+  return impl_->search({&impl_->mesh, centre, 0.5 * size, limit_m * limit_m}, limit_m,
+                       visitTriangle);
+}
+
+}  // namespace spelunk::sim
