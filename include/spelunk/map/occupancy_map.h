@@ -48,6 +48,7 @@ struct MapUpdate {
   int dropped_not_finite = 0;
   int dropped_near = 0;
   int dropped_self = 0;
+  int dropped_far = 0;  ///< Beyond what OctoMap's keys reach.
   int voxels_updated = 0;
   int voxels_changed_status = 0;
   std::vector<VoxelIndex> newly_occupied;  ///< Voxels that became occupied, in a fixed order.
@@ -65,12 +66,14 @@ class OccupancyMap {
   OccupancyMap(OccupancyMap&&) noexcept;
   OccupancyMap& operator=(OccupancyMap&&) noexcept;
 
-  /// Enters one scan. Points that are not finite, nearer than range_min_m to the sensor, or inside
-  /// `robot_body` (world frame; the robot's own box at the stamp) are dropped and counted. Never
+  /// Enters one scan. Points that are not finite, nearer than range_min_m to the sensor (or in it),
+  /// inside `robot_body` (world frame; the robot's own box at the stamp; an empty box for none) or
+  /// beyond OctoMap's range (32760 voxels from the world's origin) are dropped and counted. Never
   /// throws on odd points; a scan whose pose is not finite breaks the contract.
   MapUpdate insert(const Scan& scan, const AxisAlignedBox& robot_body);
 
-  /// Marks a box as free where it is unknown (the robot stands there, so it is).
+  /// Marks every voxel the box touches by more than 0.1 mm as free, as one miss would, where it is
+  /// unknown (the robot stands there, so it is). Throws Precondition if the box is not finite.
   void markFree(const AxisAlignedBox& box);
 
   [[nodiscard]] Occupancy at(const Eigen::Vector3d& point) const;

@@ -1,0 +1,182 @@
+#include "block_map.h"
+
+#include <octomap/octomap_utils.h>
+
+#include <algorithm>
+#include <limits>
+#include <utility>
+
+#include "spelunk/common/contract.h"
+
+namespace spelunk::map {
+namespace {
+
+template <class Visit>
+void forEachBit(std::uint64_t bits, Visit&& visit) {
+  for (; bits != 0; bits &= bits - 1) visit(__builtin_ctzll(bits));
+}
+
+AxisAlignedBox emptyBox() {
+  return {Eigen::Vector3d::Constant(std::numeric_limits<double>::infinity()),
+          Eigen::Vector3d::Constant(-std::numeric_limits<double>::infinity())};
+}
+
+void grow(Extent& extent, const Extent& other) {
+  extent.min = extent.min.cwiseMin(other.min);
+  extent.max = extent.max.cwiseMax(other.max);
+}
+
+Extent extentIn(const VoxelBlock& block, const Mask& mask) {
+  const VoxelIndex first = unpackIndex(block.key);
+  const Extent local = extentOf(mask);
+  return {first + local.min, first + local.max};
+}
+
+void addVoxels(const VoxelBlock& block, const Mask& mask, std::vector<VoxelIndex>& voxels) {
+  const VoxelIndex first = unpackIndex(block.key);
+  for (std::size_t z = 0; z < mask.size(); ++z)
+    forEachBit(mask[z], [&](int bit) {
+      voxels.push_back(first + VoxelIndex(bit & 7, bit >> 3, static_cast<int>(z)));
+    });
+}
+
+bool isEmpty(const Mask& mask) {
+  return std::all_of(mask.begin(), mask.end(), [](std::uint64_t word) { return word == 0; });
+}
+
+int countOf(const Mask& mask) {
+  int count = 0;
+  for (const std::uint64_t word : mask) count += __builtin_popcountll(word);
+  return count;
+}
+
+}  // namespace
+
+LogOdds::LogOdds(const MapParams& params)
+    : hit(octomap::logodds(params.hit_probability)),
+      miss(octomap::logodds(params.miss_probability)),
+      clamp_min(octomap::logodds(params.clamp_min_probability)),
+      clamp_max(octomap::logodds(params.clamp_max_probability)),
+      occupied(octomap::logodds(params.occupied_probability)) {
+  require(std::isfinite(clamp_min) && std::isfinite(clamp_max) && clamp_min < clamp_max,
+          "map: clamping probabilities must lie strictly between 0 and 1, the smaller one first");
+}
+
+std::uint32_t BlockMap::findOrCreate(PackedKey voxel) {
+  const PackedKey key = voxel & ~kInBlockMask;
+  const std::uint32_t found = table_.find(key);
+  if (found != KeyTable::kAbsent) return found;
+  const auto number = static_cast<std::uint32_t>(blocks_.size());
+  table_.insert(key, number);
+  blocks_.push_back(std::make_unique<VoxelBlock>());
+  blocks_.back()->key = key;
+  return number;
+}
+
+void BlockMap::setVoxel(VoxelBlock& block, std::size_t z, int bit, float value) {
+  const float clamped = std::min(std::max(value, log_odds_.clamp_min), log_odds_.clamp_max);
+  const std::uint64_t one = std::uint64_t{1} << bit;
+  const auto assign = [one](std::uint64_t& word, bool is_set) {
+    word = is_set ? word | one : word & ~one;
+  };
+  block.log_odds[z * 64 + static_cast<std::size_t>(bit)] = clamped;
+  assign(block.occupied[z], clamped >= log_odds_.occupied);
+  assign(block.at_min[z], clamped <= log_odds_.clamp_min);
+  assign(block.at_max[z], clamped >= log_odds_.clamp_max);
+  block.known[z] |= one;
+  block.tree_stale[z] |= one;
+}
+
+void BlockMap::enterPlane(VoxelBlock& block, std::size_t z, std::uint64_t free,
+                          std::uint64_t hit) {
+  const float* values = block.log_odds.data() + z * 64;
+  forEachBit(free & ~block.at_min[z],
+             [&](int bit) { setVoxel(block, z, bit, values[bit] + log_odds_.miss); });
+  forEachBit(hit & ~block.at_max[z],
+             [&](int bit) { setVoxel(block, z, bit, values[bit] + log_odds_.hit); });
+}
+
+void BlockMap::apply(const ScanMarks& marks, double resolution_m, MapUpdate& update) {
+  Extent changed{VoxelIndex::Constant(1 << 30), VoxelIndex::Constant(-(1 << 30))};
+  for (const ScanMarks::Block& marked : marks.blocks()) {
+    const std::uint32_t number = findOrCreate(marked.key);
+    VoxelBlock& block = *blocks_[number];
+    const Mask known_before = block.known;
+    const Mask occupied_before = block.occupied;
+    std::uint64_t worked = 0;
+    for (std::size_t z = 0; z < kBlockSide; ++z) {
+      const std::uint64_t hit = marked.hit[z];
+      const std::uint64_t free = marked.free[z] & ~hit;  // occupied wins within a scan
+      update.voxels_updated += __builtin_popcountll(hit | free);
+      const std::uint64_t open = (free & ~block.at_min[z]) | (hit & ~block.at_max[z]);
+      worked |= open;
+      if (open != 0) enterPlane(block, z, free, hit);
+    }
+    if (worked == 0) continue;
+    noteTree(number);
+    Mask differs;
+    Mask newly_occupied;
+    for (std::size_t z = 0; z < kBlockSide; ++z) {
+      newly_occupied[z] = block.occupied[z] & ~occupied_before[z];
+      differs[z] = (block.known[z] ^ known_before[z]) | (block.occupied[z] ^ occupied_before[z]);
+    }
+    if (isEmpty(differs)) continue;
+    noteStatus(number, known_before, occupied_before);
+    update.voxels_changed_status += countOf(differs);
+    addVoxels(block, newly_occupied, update.newly_occupied);
+    grow(changed, extentIn(block, differs));
+  }
+  update.changed = emptyBox();
+  if ((changed.min.array() > changed.max.array()).any()) return;
+  update.changed.min = changed.min.cast<double>() * resolution_m;
+  update.changed.max = (changed.max.array() + 1).cast<double>() * resolution_m;
+}
+
+void BlockMap::setValue(PackedKey voxel, float value) {
+  const std::uint32_t number = findOrCreate(voxel);
+  VoxelBlock& block = *blocks_[number];
+  const Mask known_before = block.known;
+  const Mask occupied_before = block.occupied;
+  setVoxel(block, static_cast<std::size_t>(wordOf(voxel)), bitOf(voxel), value);
+  noteTree(number);
+  if (block.known != known_before || block.occupied != occupied_before)
+    noteStatus(number, known_before, occupied_before);
+}
+
+void BlockMap::noteTree(std::uint32_t number) {
+  if (blocks_[number]->is_tree_listed) return;
+  blocks_[number]->is_tree_listed = true;
+  tree_changes_.push_back(number);
+}
+
+void BlockMap::noteStatus(std::uint32_t number, const Mask& known_before,
+                          const Mask& occupied_before) {
+  VoxelBlock& block = *blocks_[number];
+  const auto occupied_count = static_cast<std::size_t>(countOf(block.occupied));
+  const auto occupied_count_before = static_cast<std::size_t>(countOf(occupied_before));
+  occupied_voxels_ += occupied_count - occupied_count_before;
+  free_voxels_ += static_cast<std::size_t>(countOf(block.known)) - occupied_count -
+                  (static_cast<std::size_t>(countOf(known_before)) - occupied_count_before);
+  if (block.known != known_before) grow(known_, extentIn(block, block.known));
+  if (block.is_status_listed) return;
+  block.is_status_listed = true;
+  status_changes_.push_back(number);
+}
+
+Occupancy BlockMap::at(const VoxelIndex& index) const {
+  if (!isInKeyRange(index)) return Occupancy::kUnknown;
+  const PackedKey key = packIndex(index);
+  const std::uint32_t number = table_.find(key & ~kInBlockMask);
+  return number == KeyTable::kAbsent ? Occupancy::kUnknown : blocks_[number]->at(key);
+}
+
+std::vector<std::uint32_t> BlockMap::takeStatusChanges() {
+  for (const std::uint32_t number : status_changes_) blocks_[number]->is_status_listed = false;
+  return std::exchange(status_changes_, {});
+}
+
+std::size_t BlockMap::memoryBytes() const {
+  return blocks_.size() * (sizeof(VoxelBlock) + sizeof(void*)) + table_.memoryBytes();
+}
+
+}  // namespace spelunk::map

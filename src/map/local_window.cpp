@@ -1,0 +1,103 @@
+#include "spelunk/map/local_window.h"
+
+#include <algorithm>
+#include <array>
+#include <cstring>
+
+#include "frozen_blocks.h"
+#include "spelunk/common/contract.h"
+
+namespace spelunk::map {
+namespace {
+
+/// Spreads the bits of a byte to the lowest bits of eight bytes, first bit first in memory.
+constexpr std::array<std::uint64_t, 256> spreadTable() {
+  std::array<std::uint64_t, 256> table{};
+  for (unsigned byte = 0; byte < 256; ++byte)
+    for (unsigned bit = 0; bit < 8; ++bit)
+      if (((byte >> bit) & 1) != 0) table[byte] |= std::uint64_t{1} << (8 * bit);
+  return table;
+}
+constexpr std::array<std::uint64_t, 256> kSpread = spreadTable();
+
+/// Copies a block's voxels that lie in the window; known + occupied is the status.
+class BlockCopier {
+ public:
+  BlockCopier(const VoxelIndex& origin, const VoxelIndex& size, std::uint8_t* cells)
+      : origin_(origin), size_(size), cells_(cells) {}
+
+  void copy(const StatusBlock& block, const VoxelIndex& corner) {
+    const VoxelIndex at = corner - origin_;
+    const VoxelIndex first = (-at).cwiseMax(0);
+    const VoxelIndex end = (size_ - at).cwiseMin(kBlockSide);
+    for (int z = first.z(); z < end.z(); ++z) {
+      const std::uint64_t known = block.known[static_cast<std::size_t>(z)];
+      const std::uint64_t occupied = block.occupied[static_cast<std::size_t>(z)];
+      if (known == 0) continue;
+      for (int y = first.y(); y < end.y(); ++y) {
+        const std::uint64_t row = kSpread[(known >> (8 * y)) & 0xFF] +
+                                  kSpread[(occupied >> (8 * y)) & 0xFF];
+        std::uint8_t bytes[kBlockSide];
+        std::memcpy(bytes, &row, sizeof(bytes));
+        std::uint8_t* cells = cells_ + offsetOf(at.x() + first.x(), at.y() + y, at.z() + z);
+        if (end.x() - first.x() == kBlockSide)
+          std::memcpy(cells, bytes, kBlockSide);
+        else
+          std::copy(bytes + first.x(), bytes + end.x(), cells);
+      }
+    }
+  }
+
+ private:
+  [[nodiscard]] std::size_t offsetOf(int x, int y, int z) const {
+    return static_cast<std::size_t>(x) +
+           static_cast<std::size_t>(size_.x()) *
+               (static_cast<std::size_t>(y) +
+                static_cast<std::size_t>(size_.y()) * static_cast<std::size_t>(z));
+  }
+
+  VoxelIndex origin_;
+  VoxelIndex size_;
+  std::uint8_t* cells_;
+};
+
+void copyChunk(const StatusChunk& chunk, const VoxelIndex& first, const VoxelIndex& last,
+               BlockCopier& copier) {
+  const VoxelIndex corner = unpackIndex(chunk.key);
+  for (int slot = 0; slot < 64; ++slot) {
+    const VoxelIndex at = corner + 8 * VoxelIndex(slot & 3, (slot >> 2) & 3, slot >> 4);
+    if ((at.array() > last.array()).any() || (at.array() + 7 < first.array()).any()) continue;
+    copier.copy(chunk.blocks[static_cast<std::size_t>(slot)], at);
+  }
+}
+
+}  // namespace
+
+LocalWindow::LocalWindow(const FrozenMap& map, const AxisAlignedBox& region)
+    : resolution_m_(map.resolution()) {
+  require(region.min.allFinite() && region.max.allFinite(), "LocalWindow: region is not finite");
+  require(!region.isEmpty(), "LocalWindow: region is empty");
+  origin_ = map.indexOf(region.min);
+  const VoxelIndex last = map.indexOf(region.max);
+  const Eigen::Vector3d size = (last - origin_).cast<double>().array() + 1.0;
+  require(size.prod() < 2147483648.0, "LocalWindow: region has more than 2^31 voxels");
+  size_ = last - origin_ + VoxelIndex::Ones();
+  cells_.resize(static_cast<std::size_t>(size.prod()));
+  BlockCopier copier(origin_, size_, cells_.data());
+  for (const auto& chunk : map.blocks().chunks) copyChunk(*chunk, origin_, last, copier);
+}
+
+VoxelIndex LocalWindow::indexOf(const Eigen::Vector3d& point) const {
+  return voxelOf(point, 1.0 / resolution_m_);
+}
+
+Eigen::Vector3d LocalWindow::centreOf(const VoxelIndex& index) const {
+  return (index.cast<double>().array() + 0.5) * resolution_m_;
+}
+
+AxisAlignedBox LocalWindow::region() const {
+  return {origin_.cast<double>() * resolution_m_,
+          (origin_ + size_).cast<double>() * resolution_m_};
+}
+
+}  // namespace spelunk::map

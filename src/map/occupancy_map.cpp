@@ -1,0 +1,177 @@
+#include "spelunk/map/occupancy_map.h"
+
+#include <cmath>
+
+#include "block_map.h"
+#include "frozen_blocks.h"
+#include "octree_file.h"
+#include "octree_mirror.h"
+#include "scan_marks.h"
+#include "spelunk/common/contract.h"
+#include "voxel_key.h"
+
+namespace spelunk::map {
+namespace {
+
+constexpr double kFaceTolerance = 1e-4;  // a box does not touch what it overlaps by less, metres
+
+bool isKeyable(const Eigen::Vector3f& point, double inverse_resolution) {
+  const VoxelIndex index = voxelOf(point.cast<double>(), inverse_resolution);
+  constexpr int kLimit = kKeyOffset - kBlockSide;  // rounding may lead a ray one voxel farther
+  return (index.array() >= -kLimit).all() && (index.array() < kLimit).all();
+}
+
+}  // namespace
+
+struct OccupancyMap::Impl {
+  explicit Impl(const MapParams& map_params)
+      : params(map_params), blocks(LogOdds(map_params)) {}
+
+  [[nodiscard]] std::vector<Eigen::Vector3f> usablePoints(const Scan& scan,
+                                                          const AxisAlignedBox& robot_body,
+                                                          MapUpdate& update) const;
+  void markScan(const Eigen::Vector3f& origin, const std::vector<Eigen::Vector3f>& points);
+  void forget() {
+    blocks = BlockMap(LogOdds(params));
+    frozen = nullptr;
+    tree = nullptr;
+  }
+
+  MapParams params;
+  BlockMap blocks;
+  ScanMarks marks;
+  ScanMarks ends;
+  std::shared_ptr<const FrozenMap> frozen;
+  std::unique_ptr<OcTreeMirror> tree;
+};
+
+std::vector<Eigen::Vector3f> OccupancyMap::Impl::usablePoints(const Scan& scan,
+                                                              const AxisAlignedBox& robot_body,
+                                                              MapUpdate& update) const {
+  const double inverse_resolution = 1.0 / params.resolution_m;
+  std::vector<Eigen::Vector3f> usable;
+  usable.reserve(scan.points.size());
+  for (const Eigen::Vector3f& point : scan.points) {
+    const Eigen::Vector3d in_sensor = point.cast<double>();
+    if (!in_sensor.allFinite()) {
+      ++update.dropped_not_finite;
+      continue;
+    }
+    const double range = in_sensor.norm();
+    const Eigen::Vector3d in_world = scan.T_world_sensor * in_sensor;
+    const Eigen::Vector3f rounded = in_world.cast<float>();
+    if (range < params.range_min_m || range == 0.0)
+      ++update.dropped_near;
+    else if (robot_body.contains(in_world))
+      ++update.dropped_self;
+    else if (!isKeyable(rounded, inverse_resolution))
+      ++update.dropped_far;
+    else
+      usable.push_back(rounded);
+  }
+  return usable;
+}
+
+void OccupancyMap::Impl::markScan(const Eigen::Vector3f& origin,
+                                  const std::vector<Eigen::Vector3f>& points) {
+  const ScanTracer tracer(origin, params.resolution_m, params.range_max_m);
+  marks.clear();
+  if (!params.discretize) {
+    for (const Eigen::Vector3f& point : points) tracer.trace(point, marks);
+    return;
+  }
+  ends.clear();
+  for (const Eigen::Vector3f& point : points)
+    if (ends.markHit(tracer.keyOf(point))) tracer.trace(tracer.centreAround(point), marks);
+}
+
+OccupancyMap::OccupancyMap(const MapParams& params) {
+  require(std::isfinite(params.resolution_m) && params.resolution_m > 0.0,
+          "OccupancyMap: resolution must be positive");
+  impl_ = std::make_unique<Impl>(params);
+}
+OccupancyMap::~OccupancyMap() = default;
+OccupancyMap::OccupancyMap(OccupancyMap&&) noexcept = default;
+OccupancyMap& OccupancyMap::operator=(OccupancyMap&&) noexcept = default;
+
+MapUpdate OccupancyMap::insert(const Scan& scan, const AxisAlignedBox& robot_body) {
+  require(scan.T_world_sensor.matrix().allFinite(), "OccupancyMap: sensor pose is not finite");
+  MapUpdate update;
+  update.points = static_cast<int>(scan.points.size());
+  std::vector<Eigen::Vector3f> points = impl_->usablePoints(scan, robot_body, update);
+  const Eigen::Vector3f origin = scan.T_world_sensor.translation().cast<float>();
+  if (!isKeyable(origin, 1.0 / impl_->params.resolution_m)) {
+    update.dropped_far += static_cast<int>(points.size());
+    points.clear();
+  } 
+  if (points.empty()) impl_->marks.clear();
+  else impl_->markScan(origin, points);
+  impl_->blocks.apply(impl_->marks, impl_->params.resolution_m, update);
+  return update;
+}
+
+void OccupancyMap::markFree(const AxisAlignedBox& box) {
+  require(box.min.allFinite() && box.max.allFinite(), "OccupancyMap: box is not finite");
+  const double inverse_resolution = 1.0 / impl_->params.resolution_m;
+  const VoxelIndex low = VoxelIndex::Constant(-kKeyOffset);
+  const VoxelIndex high = VoxelIndex::Constant(kKeyOffset - 1);
+  const VoxelIndex first =
+      voxelOf(box.min.array() + kFaceTolerance, inverse_resolution).cwiseMax(low);
+  const VoxelIndex last =
+      voxelOf(box.max.array() - kFaceTolerance, inverse_resolution).cwiseMin(high);
+  const LogOdds& log_odds = impl_->blocks.logOdds();
+  const float value = log_odds.miss < log_odds.occupied ? log_odds.miss : log_odds.clamp_min;
+  for (int z = first.z(); z <= last.z(); ++z)
+    for (int y = first.y(); y <= last.y(); ++y)
+      for (int x = first.x(); x <= last.x(); ++x) {
+        const VoxelIndex index(x, y, z);
+        if (impl_->blocks.at(index) == Occupancy::kUnknown)
+          impl_->blocks.setValue(packIndex(index), value);
+      }
+}
+
+Occupancy OccupancyMap::at(const Eigen::Vector3d& point) const {
+  return impl_->blocks.at(voxelOf(point, 1.0 / impl_->params.resolution_m));
+}
+
+const MapParams& OccupancyMap::params() const { return impl_->params; }
+
+std::shared_ptr<const FrozenMap> OccupancyMap::freeze() {
+  const std::vector<std::uint32_t> changed = impl_->blocks.takeStatusChanges();
+  if (impl_->frozen != nullptr && changed.empty()) return impl_->frozen;
+  const FrozenMap::Blocks nothing;
+  const FrozenMap::Blocks& last = impl_->frozen ? impl_->frozen->blocks() : nothing;
+  impl_->frozen = std::make_shared<const FrozenMap>(freezeBlocks(impl_->blocks, changed, last),
+                                                    impl_->params.resolution_m);
+  return impl_->frozen;
+}
+
+const octomap::OcTree& OccupancyMap::octree() {
+  if (impl_->tree == nullptr) impl_->tree = std::make_unique<OcTreeMirror>(impl_->params);
+  impl_->blocks.takeTreeChanges([&](const VoxelBlock& block) { impl_->tree->update(block); });
+  return *impl_->tree;
+}
+
+void OccupancyMap::save(const std::string& path) {
+  if (octreeFormatOf(path) == OctreeFormat::kFull) {
+    writeOctree(octree(), OctreeFormat::kFull, path);
+    return;
+  }
+  OcTreeMirror likely(impl_->params);
+  for (std::size_t i = 0; i < impl_->blocks.blockCount(); ++i)
+    likely.updateMaximumLikelihood(impl_->blocks.block(i));
+  writeOctree(likely, OctreeFormat::kMaximumLikelihood, path);
+}
+
+void OccupancyMap::load(const std::string& path) {
+  BlockMap loaded(impl_->blocks.logOdds());
+  readOctree(path, impl_->params.resolution_m, loaded);
+  impl_->forget();
+  impl_->blocks = std::move(loaded);
+}
+
+void OccupancyMap::clear() { impl_->forget(); }
+
+std::size_t OccupancyMap::memoryBytes() const { return impl_->blocks.memoryBytes(); }
+
+}  // namespace spelunk::map

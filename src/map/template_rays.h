@@ -1,0 +1,56 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "spelunk/common/sensor_model.h"
+#include "spelunk/map/occupancy.h"
+
+namespace spelunk::map {
+
+/// The rays of one sensor as voxel offsets from the centre of the voxel around its origin, nearest
+/// first; that voxel itself is left out. Each ray holds the voxels it enters before the sensor's
+/// gain range. Directions are rounded to 2^-24, so that the lists are the same on every machine.
+class TemplateRays {
+ public:
+  using Step = std::array<std::int16_t, 3>;
+  struct Ray {
+    std::uint32_t begin;
+    std::uint32_t end;
+  };
+  /// Rays of one heading: `count` rays of `rays()` from `first` on, around its end.
+  struct Heading {
+    std::size_t first;
+    std::size_t count;
+  };
+
+  TemplateRays(const SensorModel& sensor, double resolution_m);
+
+  /// Rays at the base's `yaw`, rounded to the nearest of the headings kept: multiples of the angle
+  /// between rays for a level sensor, at least that for a pitched one.
+  [[nodiscard]] Heading headingAt(double yaw) const;
+  [[nodiscard]] const std::vector<Ray>& rays() const { return rays_; }
+  [[nodiscard]] const std::vector<Step>& steps() const { return steps_; }
+  [[nodiscard]] const Eigen::Vector3d& mount() const { return mount_m_; }
+
+ private:
+  void addRay(const Eigen::Vector3d& direction, double range_voxels);
+  void addLevelCircle(double range_voxels);
+  void addPitchedHeadings(const SensorModel& sensor, double range_voxels);
+  [[nodiscard]] double elevationOf(int row) const;
+
+  Eigen::Vector3d mount_m_;
+  double mount_yaw_ = 0.0;
+  double fov_vertical_ = 0.0;
+  double spacing_ = 0.0;  ///< Between columns, radians; divides the circle.
+  int circle_columns_ = 0;
+  int columns_ = 0;
+  int rows_ = 0;
+  int headings_ = 1;  ///< Of a pitched sensor; a level one turns by columns.
+  bool is_level_ = true;
+  std::vector<Ray> rays_;
+  std::vector<Step> steps_;
+};
+
+}  // namespace spelunk::map

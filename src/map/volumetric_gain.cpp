@@ -1,0 +1,209 @@
+#include "spelunk/map/volumetric_gain.h"
+
+#include <algorithm>
+#include <cmath>
+#include <mutex>
+
+#include "spelunk/common/contract.h"
+#include "template_rays.h"
+
+namespace spelunk::map {
+namespace {
+
+constexpr auto kOccupiedCell = static_cast<std::uint8_t>(Occupancy::kOccupied);
+constexpr auto kUnknownCell = static_cast<std::uint8_t>(Occupancy::kUnknown);
+
+/// Steps of all sensors as distances in the cells of a window of a certain size.
+struct CellOffsets {
+  VoxelIndex window_size;
+  std::vector<std::vector<std::int32_t>> sensors;
+};
+
+/// Closed range of voxels relative to the voxel the rays start in.
+struct Reachable {
+  VoxelIndex first;
+  VoxelIndex last;
+
+  [[nodiscard]] bool contains(const TemplateRays::Step& step) const {
+    return step[0] >= first.x() && step[0] <= last.x() && step[1] >= first.y() &&
+           step[1] <= last.y() && step[2] >= first.z() && step[2] <= last.z();
+  }
+};
+
+/// Voxels of the window whose centres lie in `bounds`, relative to `start`.
+Reachable reachableFrom(const VoxelIndex& start, const LocalWindow& window,
+                        const AxisAlignedBox& bounds) {
+  Reachable reachable;
+  for (int i = 0; i < 3; ++i) {
+    const double low = std::ceil(bounds.min(i) / window.resolution() - 0.5);
+    const double high = std::floor(bounds.max(i) / window.resolution() - 0.5);
+    const double window_low = window.origin()(i);
+    const double window_high = window_low + window.size()(i) - 1;
+    reachable.first(i) =
+        static_cast<int>(std::min(std::max(low, window_low), window_high + 1)) - start(i);
+    reachable.last(i) =
+        static_cast<int>(std::max(std::min(high, window_high), window_low - 1)) - start(i);
+  }
+  return reachable;
+}
+
+/// The voxels counted in one evaluation, as bits over the window. Kept a thread, wiped by what was
+/// set, so that an evaluation never clears or allocates the whole.
+class SeenCells {
+ public:
+  explicit SeenCells(std::size_t cells) {
+    if (words().size() < cells / 64 + 1) words().resize(cells / 64 + 1, 0);
+  }
+  ~SeenCells() {
+    for (const std::size_t word : touched_) words()[word] = 0;
+  }
+  SeenCells(const SeenCells&) = delete;
+  SeenCells& operator=(const SeenCells&) = delete;
+
+  /// Whether the cell is new; it is not the next time.
+  bool add(std::size_t cell) {
+    std::uint64_t& word = words()[cell / 64];
+    const std::uint64_t bit = std::uint64_t{1} << (cell % 64);
+    if ((word & bit) != 0) return false;
+    if (word == 0) touched_.push_back(cell / 64);
+    word |= bit;
+    return true;
+  }
+
+ private:
+  static std::vector<std::uint64_t>& words() {
+    thread_local std::vector<std::uint64_t> words;
+    return words;
+  }
+  std::vector<std::size_t> touched_;
+};
+
+void countRay(const std::uint8_t* start, const std::int32_t* offsets, std::size_t count,
+              VolumetricGain& gain) {
+  int unknown = 0;
+  std::size_t i = 0;
+  for (; i < count; ++i) {
+    const std::uint8_t cell = start[offsets[i]];
+    if (cell == kOccupiedCell) break;
+    unknown += cell == kUnknownCell ? 1 : 0;
+  }
+  gain.unknown_voxels += unknown;
+  gain.free_voxels += static_cast<int>(i) - unknown;
+  if (i < count) ++gain.occupied_voxels;
+}
+
+void countRayOnce(const std::uint8_t* cells, std::size_t start, const std::int32_t* offsets,
+                  std::size_t count, SeenCells& seen, VolumetricGain& gain) {
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::size_t at = start + static_cast<std::size_t>(static_cast<std::int64_t>(offsets[i]));
+    const std::uint8_t cell = cells[at];
+    if (seen.add(at)) {
+      gain.unknown_voxels += cell == kUnknownCell ? 1 : 0;
+      gain.occupied_voxels += cell == kOccupiedCell ? 1 : 0;
+      gain.free_voxels += cell == static_cast<std::uint8_t>(Occupancy::kFree) ? 1 : 0;
+    }
+    if (cell == kOccupiedCell) return;
+  }
+}
+
+}  // namespace
+
+struct GainEvaluator::Impl {
+  [[nodiscard]] std::shared_ptr<const CellOffsets> offsetsFor(const VoxelIndex& window_size);
+  void countSensor(std::size_t sensor, const LocalWindow& window, const VoxelIndex& start,
+                   double yaw, const AxisAlignedBox& bounds, const CellOffsets& offsets,
+                   SeenCells* seen, VolumetricGain& gain) const;
+
+  double resolution_m = 0.2;
+  double reach_m = 0.0;
+  GainCounting counting = GainCounting::kDistinct;
+  std::vector<TemplateRays> sensors;
+  std::mutex mutex;  ///< Guards `last_offsets` only.
+  std::shared_ptr<const CellOffsets> last_offsets;
+};
+
+std::shared_ptr<const CellOffsets> GainEvaluator::Impl::offsetsFor(const VoxelIndex& window_size) {
+  const std::lock_guard lock(mutex);
+  if (last_offsets != nullptr && last_offsets->window_size.head<2>() == window_size.head<2>())
+    return last_offsets;
+  auto offsets = std::make_shared<CellOffsets>();
+  offsets->window_size = window_size;
+  const std::int64_t row = window_size.x();
+  const std::int64_t plane = row * window_size.y();
+  for (const TemplateRays& sensor : sensors) {
+    std::vector<std::int32_t>& list = offsets->sensors.emplace_back();
+    list.reserve(sensor.steps().size());
+    for (const TemplateRays::Step& step : sensor.steps())
+      list.push_back(static_cast<std::int32_t>(step[0] + row * step[1] + plane * step[2]));
+  }
+  last_offsets = std::move(offsets);
+  return last_offsets;
+}
+
+void GainEvaluator::Impl::countSensor(std::size_t sensor, const LocalWindow& window,
+                                      const VoxelIndex& start, double yaw,
+                                      const AxisAlignedBox& bounds, const CellOffsets& offsets,
+                                      SeenCells* seen, VolumetricGain& gain) const {
+  const Reachable reachable = reachableFrom(start, window, bounds);
+  if (!reachable.contains({0, 0, 0})) return;
+  const TemplateRays& rays = sensors[sensor];
+  const TemplateRays::Heading heading = rays.headingAt(yaw);
+  const std::size_t start_cell = window.offsetOf(start - window.origin());
+  std::size_t number = heading.first;
+  for (std::size_t i = 0; i < heading.count; ++i) {
+    const TemplateRays::Ray& ray = rays.rays()[number];
+    if (++number == rays.rays().size()) number = 0;
+    if (ray.begin == ray.end) continue;
+    const TemplateRays::Step* begin = rays.steps().data() + ray.begin;
+    const TemplateRays::Step* end = rays.steps().data() + ray.end;
+    // A ray leaves a box once: all of it is inside, or all from some step on is outside.
+    if (!reachable.contains(end[-1]))
+      end = std::partition_point(begin, end, [&](const TemplateRays::Step& step) {
+        return reachable.contains(step);
+      });
+    const std::int32_t* cells = offsets.sensors[sensor].data() + ray.begin;
+    const auto count = static_cast<std::size_t>(end - begin);
+    if (seen == nullptr)
+      countRay(window.cells().data() + start_cell, cells, count, gain);
+    else
+      countRayOnce(window.cells().data(), start_cell, cells, count, *seen, gain);
+  }
+}
+
+GainEvaluator::GainEvaluator(const std::vector<SensorModel>& sensors, double resolution_m,
+                             GainCounting counting)
+    : impl_(std::make_unique<Impl>()) {
+  require(std::isfinite(resolution_m) && resolution_m > 0.0, "GainEvaluator: bad resolution");
+  impl_->resolution_m = resolution_m;
+  impl_->counting = counting;
+  for (const SensorModel& sensor : sensors) {
+    impl_->sensors.emplace_back(sensor, resolution_m);
+    impl_->reach_m =
+        std::max(impl_->reach_m, sensor.gain_range_m + sensor.mount_m.norm() + resolution_m);
+  }
+}
+GainEvaluator::~GainEvaluator() = default;
+GainEvaluator::GainEvaluator(GainEvaluator&&) noexcept = default;
+
+VolumetricGain GainEvaluator::evaluate(const LocalWindow& window, const Eigen::Vector3d& position,
+                                       double yaw, const AxisAlignedBox& bounds) const {
+  require(position.allFinite() && std::isfinite(yaw), "GainEvaluator: pose is not finite");
+  require(std::fabs(window.resolution() - impl_->resolution_m) < 1e-9,
+          "GainEvaluator: window of another resolution");
+  VolumetricGain gain;
+  const auto offsets = impl_->offsetsFor(window.size());
+  const bool is_distinct = impl_->counting == GainCounting::kDistinct;
+  SeenCells seen(is_distinct ? window.cells().size() : 0);
+  const Eigen::AngleAxisd R_world_base(yaw, Eigen::Vector3d::UnitZ());
+  for (std::size_t i = 0; i < impl_->sensors.size(); ++i) {
+    const Eigen::Vector3d origin = position + R_world_base * impl_->sensors[i].mount();
+    impl_->countSensor(i, window, window.indexOf(origin), yaw, bounds, *offsets,
+                       is_distinct ? &seen : nullptr, gain);
+  }
+  gain.unknown_m3 = gain.unknown_voxels * std::pow(impl_->resolution_m, 3);
+  return gain;
+}
+
+double GainEvaluator::reach() const { return impl_->reach_m; }
+
+}  // namespace spelunk::map
