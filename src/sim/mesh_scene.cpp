@@ -2,11 +2,13 @@
 
 #include <embree3/rtcore.h>
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
 #include <string>
+#include <vector>
 
 #include "spelunk/common/contract.h"
 #include "spelunk/common/log.h"
@@ -17,6 +19,9 @@ namespace {
 
 /// Rays traced together. Neighbouring rays of a scan stay in one packet: they walk the same nodes.
 constexpr std::size_t kPacket = 8;
+
+/// Farther off from Embree's range, the range to a triangle's plane is not believed.
+constexpr float kRangeDoubt_m = 0.01F;
 
 /// Embree would take the widest instruction set of the machine, and different ones round ranges
 /// differently. AVX2 is the lowest that is 18 times faster than Bullet's rayTest in a mine (35 x;
@@ -33,6 +38,25 @@ RTCDevice makeDevice() {
   RTCDevice device = rtcNewDevice(has_avx2 ? kPinned : kFallback);
   if (device == nullptr) throw OutsideError("Embree cannot start; install libembree3 3.13");
   return device;
+}
+
+/// The plane of a triangle: normal * p = offset, the normal of any length.
+struct Plane {
+  Eigen::Vector3d normal;
+  double offset;
+};
+
+std::vector<Plane> planesOf(const WorldMesh& mesh) {
+  std::vector<Plane> planes;
+  planes.reserve(mesh.triangles.size());
+  for (const Eigen::Vector3i& triangle : mesh.triangles) {
+    const auto corner = [&](int k) -> Eigen::Vector3d {
+      return mesh.vertices[static_cast<std::size_t>(triangle[k])].cast<double>();
+    };
+    const Eigen::Vector3d normal = (corner(1) - corner(0)).cross(corner(2) - corner(0));
+    planes.push_back({normal, normal.dot(corner(0))});
+  }
+  return planes;
 }
 
 /// What one distance query carries through the tree.
@@ -101,7 +125,8 @@ void fillPacket(const Eigen::Vector3f& origin, const Eigen::Vector3f* directions
 }  // namespace
 
 struct MeshScene::Impl {
-  explicit Impl(const WorldMesh& world) : mesh(world), device(makeDevice()) {
+  explicit Impl(const WorldMesh& world)
+      : mesh(world), planes(planesOf(world)), device(makeDevice()) {
     scene = rtcNewScene(device);
     rtcSetSceneBuildQuality(scene, RTC_BUILD_QUALITY_HIGH);
     RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
@@ -142,7 +167,19 @@ struct MeshScene::Impl {
     return std::sqrt(query.best_squared);
   }
 
+  /// Embree says which triangle a ray hits; how far that is follows from the triangle's plane.
+  /// Embree's own range comes from approximate reciprocals that differ between processors; it
+  /// serves for rays that lie in the triangle, whose plane says nothing.
+  [[nodiscard]] float rangeTo(unsigned triangle, const Eigen::Vector3d& origin,
+                              const Eigen::Vector3f& direction, float embree_range) const {
+    const Plane& plane = planes[triangle];
+    const double height = plane.offset - plane.normal.dot(origin);
+    const auto range = static_cast<float>(height / plane.normal.dot(direction.cast<double>()));
+    return std::abs(range - embree_range) < kRangeDoubt_m ? std::max(0.0F, range) : embree_range;
+  }
+
   WorldMesh mesh;
+  std::vector<Plane> planes;  ///< One a triangle.
   RTCDevice device;
   RTCScene scene = nullptr;
 };
@@ -168,7 +205,11 @@ void MeshScene::castFan(const Eigen::Vector3f& origin,
     for (std::size_t k = 0; k < kPacket; ++k) valid[k] = k < count ? -1 : 0;
     fillPacket(origin, &directions[first], count, range_max, packet);
     rtcIntersect8(valid.data(), impl_->scene, &context, &packet);
-    std::copy_n(packet.ray.tfar, count, &ranges[first]);
+    for (std::size_t k = 0; k < count; ++k)
+      ranges[first + k] = packet.hit.geomID[k] == RTC_INVALID_GEOMETRY_ID
+                              ? range_max
+                              : impl_->rangeTo(packet.hit.primID[k], origin.cast<double>(),
+                                               directions[first + k], packet.ray.tfar[k]);
   }
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <sstream>
 
 #include "spelunk/common/contract.h"
@@ -23,6 +24,23 @@ std::string textOf(const Pose& pose) {
   std::ostringstream text;
   text << "(" << pose.position.x() << ", " << pose.position.y() << ", " << pose.position.z() << ")";
   return text.str();
+}
+
+void requireUsable(const SimParams& params, const WorldMesh& mesh) {
+  if (mesh.triangles.empty()) throw OutsideError("world '" + mesh.name + "' holds no triangles");
+  std::string text;
+  for (const std::string& problem : params.problems()) text += (text.empty() ? "" : "; ") + problem;
+  if (!text.empty()) throw OutsideError(text);
+}
+
+void requireFollowable(const Trajectory& trajectory) {
+  double last_s = -std::numeric_limits<double>::infinity();
+  for (const TrajectoryPoint& point : trajectory) {
+    require(isFinite(point.pose) && point.velocity.allFinite() && std::isfinite(point.time_s),
+            "Simulator::follow: trajectory is not finite");
+    require(point.time_s > last_s, "Simulator::follow: times do not rise");
+    last_s = point.time_s;
+  }
 }
 
 /// Refuses a start from which no flight can begin.
@@ -78,6 +96,15 @@ Eigen::Isometry3d toIsometry(const BodyState& body) {
 }
 
 }  // namespace
+
+std::vector<std::string> SimParams::problems() const {
+  std::vector<std::string> found;
+  if (rotors != 4 && rotors != 6) found.emplace_back("sim.rotors must be 4 or 6");
+  const double largest = inertia_kgm2.maxCoeff();
+  if (inertia_kgm2.sum() - largest < largest)
+    found.emplace_back("sim.inertia_kgm2: no moment can exceed the sum of the other two");
+  return found;
+}
 
 struct Simulator::Impl {
   Impl(const SimParams& sim_params, const RobotModel& robot, const WorldMesh& mesh,
@@ -147,15 +174,13 @@ struct Simulator::Impl {
 
 Simulator::Simulator(const SimParams& params, const RobotModel& robot, const WorldMesh& mesh,
                      const Pose& start, std::uint64_t seed) {
-  if (mesh.triangles.empty()) throw OutsideError("world '" + mesh.name + "' holds no triangles");
+  requireUsable(params, mesh);
   impl_ = std::make_unique<Impl>(params, robot, mesh, start, seed);
 }
 Simulator::~Simulator() = default;
 
 void Simulator::follow(Trajectory trajectory) {
-  for (const TrajectoryPoint& point : trajectory)
-    require(isFinite(point.pose) && point.velocity.allFinite() && std::isfinite(point.time_s),
-            "Simulator::follow: trajectory is not finite");
+  requireFollowable(trajectory);
   if (!trajectory.empty()) {
     impl_->reference = std::move(trajectory);
     return;

@@ -33,6 +33,9 @@ struct SimParams {
   double odometry_drift = 0.0;            ///< Metres of drift a metre flown (1 sigma).
   double odometry_noise_m = 0.0;          ///< White noise of the position (1 sigma).
 
+  /// Broken rules between fields, one text each; empty if all is well.
+  [[nodiscard]] std::vector<std::string> problems() const;
+
   template <class Visitor>
   void visit(Visitor&& field) {
     field("physics_rate_hz", physics_rate_hz, Bounds{100.0, 4000.0}, "fixed steps a second");
@@ -78,16 +81,20 @@ struct SimulatedScan {
 /// commands give the same run, bit by bit. Knows nothing of planners and maps.
 class Simulator {
  public:
-  /// Throws OutsideError if the start lies in collision or outside the mesh's bounds.
+  /// Throws OutsideError if the start lies in collision or outside the mesh's bounds, the mesh is
+  /// empty or `params` have problems. The robot starts hovering at `start`, at time 0.
   Simulator(const SimParams& params, const RobotModel& robot, const WorldMesh& mesh,
             const Pose& start, std::uint64_t seed);
   ~Simulator();
 
   /// The robot follows `trajectory` (times in this simulator's time) until told otherwise; an empty
-  /// one stops and holds.
+  /// one brakes with robot.braking_deceleration_mps2 and holds. It steers by its odometry, whose
+  /// frame the trajectory is in, so drift moves the robot. Throws Precondition if a point is not
+  /// finite or times do not rise.
   void follow(Trajectory trajectory);
 
-  /// Advances by fixed steps up to `time_s`; returns the scans that fell due, in order of time.
+  /// Advances by fixed steps up to `time_s`; returns the scans that fell due, in order of time, the
+  /// first one at time 0. With an empty battery the rotors stop.
   std::vector<SimulatedScan> advanceTo(double time_s);
 
   [[nodiscard]] double time() const;
