@@ -1,0 +1,55 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "spelunk/common/robot_model.h"
+#include "spelunk/map/volumetric_gain.h"
+#include "spelunk/planners/exploration_planner.h"
+#include "spelunk/planners/gbplanner/gb_planner_params.h"
+#include "spelunk/planners/gbplanner/global_graph.h"
+#include "spelunk/planners/gbplanner/local_search.h"
+#include "spelunk/planners/gbplanner/tried_targets.h"
+
+namespace spelunk::planners::gbplanner {
+
+/// GBPlanner for aerial robots: Dang, Tranzatto, Khattak, Mascarich, Alexis, Hutter: Graph-based
+/// Subterranean Exploration Path Planning using Aerial and Legged Robots. Journal of Field Robotics
+/// 37(8), 2020, sections 4.1, 4.2 and 4.4.
+///
+/// plan(): the local planner; on local completion the global planner, by itself. best_gain and
+/// gain_threshold of the stats are discounted m3 (eq. 1 without the similarity factor).
+/// planHome(): the shortest checked way in the global graph.
+class GbPlanner final : public ExplorationPlanner {
+ public:
+  /// `resolution_m`: of the maps it will be asked on.
+  GbPlanner(const GbPlannerParams& params, const RobotModel& robot, double resolution_m);
+
+  [[nodiscard]] PlannerGraph graph() const override;
+  void restore(const PlannerGraph& graph) override;
+  void reset() override;
+
+ private:
+  /// The newest path proposed by plan().
+  struct Proposal {
+    PathKind kind = PathKind::kLocal;
+    Eigen::Vector3d target = Eigen::Vector3d::Zero();
+  };
+  struct Search;
+
+  PlanResult doPlan(const PlanRequest& request) override;
+  PlanResult doPlanHome(const PlanRequest& request) override;
+
+  GbPlannerParams params_;
+  RobotModel robot_;
+  map::GainEvaluator evaluator_;
+  GlobalGraph global_;
+  TriedTargets tried_;
+  std::optional<Proposal> proposal_;
+  double trail_known_until_s_;
+  std::shared_ptr<const map::FrozenMap> checked_map_;
+  GraphLayer local_layer_;
+};
+
+}  // namespace spelunk::planners::gbplanner

@@ -1,0 +1,313 @@
+#include "spelunk/planners/gbplanner/gb_planner.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "spelunk/common/stopwatch.h"
+#include "spelunk/planners/gbplanner/exploration_gain.h"
+#include "spelunk/planners/gbplanner/global_search.h"
+#include "spelunk/planners/gbplanner/improve_path.h"
+#include "spelunk/planners/gbplanner/plan_view.h"
+#include "spelunk/planners/shared/free_start.h"
+
+namespace spelunk::planners::gbplanner {
+namespace {
+
+using graph::Polyline;
+using graph::VertexId;
+
+GlobalGraphLimits limitsFrom(const GbPlannerParams& params) {
+  GlobalGraphLimits limits;
+  limits.connect_radius_m = params.global_radius_m;
+  limits.frontier_spacing_m = params.frontier_spacing_m;
+  return limits;
+}
+
+/// Poses along a line that look where they go; the first keeps its heading.
+Path toPath(const Polyline& line, const Pose& start) {
+  Path path{start};
+  for (std::size_t i = 1; i < line.size(); ++i) {
+    const Eigen::Vector3d step = line[i] - line[i - 1];
+    constexpr double kUpright = 1e-6;  // no heading in a vertical step
+    const double yaw =
+        step.head<2>().norm() > kUpright ? std::atan2(step.y(), step.x()) : path.back().yaw;
+    path.push_back({line[i], yaw});
+  }
+  return path;
+}
+
+Polyline toLine(const Path& path) {
+  Polyline line;
+  for (const Pose& pose : path) line.push_back(pose.position);
+  return line;
+}
+
+double longestRange(const RobotModel& robot) {
+  double range = 0.0;
+  for (const SensorModel& sensor : robot.sensor_models) range = std::max(range, sensor.range_max_m);
+  return range;
+}
+
+}  // namespace
+
+/// State shared by the steps of one plan.
+struct GbPlanner::Search {
+  GbPlanner& planner;
+  const PlanRequest& request;
+  PlanView view;
+  PlanResult result{};
+  Eigen::Vector3d root = Eigen::Vector3d::Zero();
+  VertexId current{};
+  std::optional<Proposal> previous{};
+  LocalPlan local{};
+  double way_home_m = 0.0;
+
+  Search(GbPlanner& owner, const PlanRequest& asked)
+      : planner(owner),
+        request(asked),
+        view(asked, owner.robot_, owner.params_, owner.evaluator_) {}
+
+  void noteOutcome() {
+    previous = std::exchange(planner.proposal_, std::nullopt);
+    if (previous) planner.tried_.note(previous->target, request.last_outcome, request.last_reason);
+  }
+
+  void joinGlobalGraph() {
+    if (planner.global_.isEmpty()) planner.global_.setHome(request.home.position);
+    for (const StampedPose& stamped : request.trail) {
+      if (stamped.time_s <= planner.trail_known_until_s_) continue;
+      planner.global_.addFlown(stamped.pose.position, view.localSpace());
+      planner.trail_known_until_s_ = stamped.time_s;
+    }
+    current = planner.global_.addPoint(root, view.localSpace());
+    if (planner.checked_map_ != request.map) {
+      planner.global_.forgetChecksNear(root, longestRange(planner.robot_));
+      planner.checked_map_ = request.map;
+    }
+    way_home_m = graph::shortestPaths(planner.global_.graph(), current)
+                     .distanceTo(GlobalGraph::home());
+  }
+
+  void planLocally() {
+    const bool flies_on = previous && previous->kind == PathKind::kLocal &&
+                          request.last_outcome == PathOutcome::kReplaced;
+    LocalContext context{planner.tried_, std::nullopt,
+                         std::isfinite(way_home_m) ? way_home_m : 0.0};
+    if (flies_on) context.previous_target = previous->target;
+    local = gbplanner::planLocally(request, view, root, context, planner.robot_, planner.params_,
+                                   result.stats);
+  }
+
+  /// Alg. 4, and the periodic re-evaluation of frontiers within the local box.
+  void extendGlobalGraph() {
+    const Stopwatch watch;
+    reevaluateFrontiers();
+    if (!local.best.empty()) planner.global_.addPath(local.best, view.localSpace());
+    for (const PrincipalPath& principal : local.principals) {
+      if (planner.global_.hasFrontierNear(principal.path.back())) continue;
+      const VertexId leaf = planner.global_.addPath(principal.path, view.localSpace());
+      planner.global_.markFrontier(leaf, principal.gain_m3);
+    }
+    result.stats.global_ms = watch.milliseconds();
+  }
+
+  void reevaluateFrontiers() {
+    for (Frontier& frontier : planner.global_.frontiers()) {
+      const Eigen::Vector3d& at = planner.global_.graph().position(frontier.vertex);
+      if (frontier.isOpen() && view.localBox().contains(at))
+        frontier.gain_m3 = view.gainAt(at, request.pose.yaw);
+    }
+    planner.global_.dropFrontiersBelow(planner.params_.frontier_gain_m3);
+  }
+
+  /// Local completion: what promised to be worth coming here has kept its promise or not.
+  void closeFrontiersHere() {
+    for (Frontier& frontier : planner.global_.frontiers()) {
+      const Eigen::Vector3d& at = planner.global_.graph().position(frontier.vertex);
+      if (frontier.isOpen() && (at - root).norm() < planner.params_.tried_radius_m)
+        frontier.closed_because = "been there: no path from it reaches the gain threshold";
+    }
+  }
+
+  void followLocalPath() {
+    const Polyline cut = toLine(slice(toPath(local.best, {root, request.pose.yaw}), 0.0,
+                                      planner.params_.local_length_max_m));
+    finish(improved(cut, view.localSpace()), PathKind::kLocal);
+    result.reason = "local path, " + std::to_string(std::lround(local.best_gain_m3)) +
+                    " m3 expected along it";
+  }
+
+  void reposition() {
+    const Stopwatch watch;
+    closeFrontiersHere();
+    const GlobalQuery query{current, request.remaining_s, planner.robot_.speed_max_mps,
+                            [this](const Eigen::Vector3d& at) {
+                              return gainAnywhere(request, planner.params_, planner.evaluator_, at,
+                                                  request.pose.yaw);
+                            }};
+    const GlobalPlan plan = planGlobally(planner.global_, query, view.globalSpace(),
+                                         planner.tried_, planner.params_);
+    result.stats.global_ms += watch.milliseconds();
+    if (plan.path.empty()) return reportNothingLeft(plan);
+    finish(improved(fromRoot(plan.path), view.globalSpace()), PathKind::kReposition);
+    result.reason = "reposition to a frontier of " + std::to_string(std::lround(plan.gain_m3)) +
+                    " m3, " + std::to_string(std::lround(lengthOf(result.path))) + " m away";
+  }
+
+  void goHome() {
+    Polyline way = fromRoot(
+        planner.global_.findFreePath(current, GlobalGraph::home(), view.globalSpace()));
+    if (way.empty()) {
+      result.status = PlanStatus::kNoPath;
+      result.reason = "no free path home is left in the global graph";
+      return;
+    }
+    const GbPlannerParams& params = planner.params_;
+    way = shortened(way, view.globalSpace(), params.shortcut_length_max_m);
+    result.status = PlanStatus::kOk;
+    result.kind = PathKind::kHome;
+    result.path = startingAtPose(way);
+    result.reason = "shortest way home, " + std::to_string(std::lround(lengthOf(result.path))) + " m";
+  }
+
+  /// `way` from the root on; a path from a merged vertex begins up to its radius beside it.
+  [[nodiscard]] Polyline fromRoot(Polyline way) const {
+    constexpr double kSamePlace = 1e-6;
+    if (!way.empty() && (way.front() - root).norm() > kSamePlace) way.insert(way.begin(), root);
+    return way;
+  }
+
+  /// The path of a line that begins at the root; first out of what blocks the start, if anything.
+  [[nodiscard]] Path startingAtPose(const Polyline& line) const {
+    Path path = toPath(line, {root, request.pose.yaw});
+    if ((root - request.pose.position).norm() > 0.0) path.insert(path.begin(), request.pose);
+    path.front() = request.pose;
+    return path;
+  }
+
+  void reportNothingLeft(const GlobalPlan& plan) {
+    listRemaining();
+    if (local.is_over_budget || plan.out_of_budget > 0) {
+      result.status = PlanStatus::kBudgetSaysHome;
+      result.reason = "something is left, but the endurance allows none of it and the way home";
+    } else if (plan.unreachable > 0) {
+      result.status = PlanStatus::kNoPath;
+      result.reason = "frontiers are left, but no free path leads to any of them";
+    } else {
+      result.status = PlanStatus::kNothingToGain;
+      result.reason = "explored: nothing reachable above g_e is left";
+    }
+  }
+
+  void listRemaining() {
+    for (const Frontier& frontier : planner.global_.frontiers()) {
+      const std::string why =
+          frontier.isOpen() ? "no time for it and the way home, or no free path"
+                            : frontier.closed_because;
+      result.remaining.push_back(
+          {planner.global_.graph().position(frontier.vertex), frontier.gain_m3, why});
+    }
+  }
+
+  Polyline improved(const Polyline& line, const FreeSpace& space) {
+    const Stopwatch watch;
+    const GbPlannerParams& params = planner.params_;
+    Polyline better = improvedPath(line, space, view.window(),
+                                   {params.shortcut_length_max_m, params.prune_length_m,
+                                    params.inflation_radius_m});
+    result.stats.improve_ms += watch.milliseconds();
+    return better;
+  }
+
+  void finish(const Polyline& line, PathKind kind) {
+    result.status = PlanStatus::kOk;
+    result.kind = kind;
+    result.path = startingAtPose(line);
+    planner.proposal_ = Proposal{kind, line.back()};
+    if (kind == PathKind::kLocal) planner.global_.addPath(line, view.localSpace());
+  }
+
+  void fillStats() {
+    result.stats.global_vertices = static_cast<int>(planner.global_.graph().vertexCount());
+    result.stats.global_edges = static_cast<int>(planner.global_.graph().edgeCount());
+    result.stats.frontiers = static_cast<int>(planner.global_.frontiers().size());
+    result.stats.best_gain = local.best_gain_m3;
+    result.stats.gain_threshold = planner.params_.gain_threshold_m3;
+  }
+
+  [[nodiscard]] GraphLayer localLayer() const {
+    GraphLayer layer{"local", {}, {}};
+    const graph::SpatialGraph& graph = local.local.graph;
+    for (std::size_t i = 0; i < graph.vertexCount(); ++i) {
+      layer.vertices.push_back({graph.position(VertexId{static_cast<std::uint32_t>(i)}),
+                                local.gains_m3[i], false});
+    }
+    for (const auto& [a, b] : graph.edges())
+      layer.edges.emplace_back(static_cast<std::uint32_t>(a), static_cast<std::uint32_t>(b));
+    return layer;
+  }
+};
+
+GbPlanner::GbPlanner(const GbPlannerParams& params, const RobotModel& robot, double resolution_m)
+    : params_(params),
+      robot_(robot),
+      evaluator_(robot.sensor_models, resolution_m, map::GainCounting::kPerRay),
+      global_(limitsFrom(params)),
+      tried_(params.tried_radius_m),
+      trail_known_until_s_(-std::numeric_limits<double>::infinity()) {}
+
+PlanResult GbPlanner::doPlan(const PlanRequest& request) {
+  const Stopwatch watch;
+  Search search(*this, request);
+  search.result.stats.window_ms = watch.milliseconds();
+  const StartCheck start = checkStart(request, search.view.localSpace());
+  if (!start.root) return refusedStart(start);
+  search.root = *start.root;
+  search.noteOutcome();
+  search.joinGlobalGraph();
+  search.planLocally();
+  search.extendGlobalGraph();
+  if (search.local.best.empty()) {
+    search.reposition();
+  } else {
+    search.followLocalPath();
+  }
+  search.fillStats();
+  search.result.stats.total_ms = watch.milliseconds();
+  local_layer_ = search.localLayer();
+  return std::move(search.result);
+}
+
+PlanResult GbPlanner::doPlanHome(const PlanRequest& request) {
+  const Stopwatch watch;
+  Search search(*this, request);
+  const StartCheck start = checkStart(request, search.view.localSpace());
+  if (!start.root) return refusedStart(start);
+  search.root = *start.root;
+  search.joinGlobalGraph();
+  search.goHome();
+  search.fillStats();
+  search.result.stats.total_ms = watch.milliseconds();
+  return std::move(search.result);
+}
+
+PlannerGraph GbPlanner::graph() const { return {{local_layer_, global_.layer()}}; }
+
+void GbPlanner::restore(const PlannerGraph& graph) {
+  for (const GraphLayer& layer : graph.layers) {
+    if (layer.name == "global") global_.restore(layer);
+  }
+}
+
+void GbPlanner::reset() {
+  global_ = GlobalGraph(limitsFrom(params_));
+  tried_ = TriedTargets(params_.tried_radius_m);
+  proposal_.reset();
+  trail_known_until_s_ = -std::numeric_limits<double>::infinity();
+  checked_map_.reset();
+  local_layer_ = {};
+}
+
+}  // namespace spelunk::planners::gbplanner

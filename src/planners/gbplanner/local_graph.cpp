@@ -1,0 +1,93 @@
+#include "spelunk/planners/gbplanner/local_graph.h"
+
+#include <algorithm>
+
+#include "spelunk/common/stopwatch.h"
+
+namespace spelunk::planners::gbplanner {
+namespace {
+
+using graph::VertexId;
+
+constexpr int kSamplesBetweenClockReads = 64;
+
+void count(Rejection rejection, PlanStats& stats) {
+  switch (rejection) {
+    case Rejection::kNone: break;
+    case Rejection::kOccupied: ++stats.rejected_occupied; break;
+    case Rejection::kUnknown: ++stats.rejected_unknown; break;
+    case Rejection::kOutOfBounds: ++stats.rejected_out_of_bounds; break;
+    case Rejection::kNoGo: ++stats.rejected_no_go; break;
+  }
+}
+
+Eigen::Vector3d sampleIn(const AxisAlignedBox& box, Rng& rng) {
+  const double x = rng.uniform(box.min.x(), box.max.x());
+  const double y = rng.uniform(box.min.y(), box.max.y());
+  const double z = rng.uniform(box.min.z(), box.max.z());
+  return {x, y, z};
+}
+
+struct Expansion {
+  LocalGraph& local;
+  const FreeSpace& space;
+  const GbPlannerParams& params;
+  PlanStats& stats;
+
+  [[nodiscard]] bool isFull() const {
+    return local.graph.vertexCount() >= static_cast<std::size_t>(params.max_vertices) ||
+           local.graph.edgeCount() >= static_cast<std::size_t>(params.max_edges);
+  }
+
+  void tryPoint(Eigen::Vector3d point) {
+    const VertexId nearest = *local.graph.findNearest(point);
+    const Eigen::Vector3d from = local.graph.position(nearest);
+    const double gap = (point - from).norm();
+    if (gap < params.edge_length_min_m) return;
+    if (gap > params.edge_length_max_m) point = from + (point - from) * (params.edge_length_max_m / gap);
+    const Rejection at_point = space.at(point);
+    if (at_point != Rejection::kNone) return count(at_point, stats);
+    if (!space.isFree(from, point)) {
+      ++stats.rejected_unconnected;
+      return;
+    }
+    const VertexId added = local.graph.addVertex(point);
+    local.graph.addEdge(nearest, added, (point - from).norm());
+    connect(added);
+  }
+
+  void connect(VertexId added) {
+    const Eigen::Vector3d point = local.graph.position(added);
+    int tried = 0;
+    for (const VertexId near : local.graph.findWithin(point, params.connection_radius_m)) {
+      if (near == added || local.graph.hasEdge(near, added)) continue;
+      if (++tried > params.connections_max) return;
+      const Eigen::Vector3d& other = local.graph.position(near);
+      if (space.isFree(point, other)) local.graph.addEdge(near, added, (point - other).norm());
+    }
+  }
+};
+
+}  // namespace
+
+LocalGraph buildLocalGraph(const Eigen::Vector3d& root, const AxisAlignedBox& box,
+                           const FreeSpace& space, const GbPlannerParams& params,
+                           const PlanBudget& budget, Rng rng, PlanStats& stats) {
+  const Stopwatch watch;
+  LocalGraph local;
+  local.root = local.graph.addVertex(root);
+  Expansion expansion{local, space, params, stats};
+  while (!expansion.isFull() && stats.samples < budget.iterations) {
+    if (stats.samples % kSamplesBetweenClockReads == 0 &&
+        watch.milliseconds() > budget.seconds * 1e3) {
+      break;
+    }
+    ++stats.samples;
+    expansion.tryPoint(sampleIn(box, rng));
+  }
+  stats.vertices = static_cast<int>(local.graph.vertexCount());
+  stats.edges = static_cast<int>(local.graph.edgeCount());
+  return local;
+}
+
+}  // namespace spelunk::planners::gbplanner

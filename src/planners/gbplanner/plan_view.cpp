@@ -1,0 +1,75 @@
+#include "spelunk/planners/gbplanner/plan_view.h"
+
+#include "spelunk/common/contract.h"
+#include "spelunk/planners/gbplanner/credible_window.h"
+
+namespace spelunk::planners::gbplanner {
+namespace {
+
+/// `box` where there is anything known, a voxel around it included; never empty.
+AxisAlignedBox knownPart(const AxisAlignedBox& box, const map::FrozenMap& map,
+                         const Eigen::Vector3d& inside) {
+  AxisAlignedBox known = map.knownBounds();
+  if (known.isEmpty()) known = boxAround(inside, Eigen::Vector3d::Zero());
+  const Eigen::Vector3d margin = Eigen::Vector3d::Constant(map.resolution());
+  const AxisAlignedBox common = intersection(box, {known.min - margin, known.max + margin});
+  return common.isEmpty() ? boxAround(inside, margin) : common;
+}
+
+AxisAlignedBox grown(const AxisAlignedBox& box, const Eigen::Vector3d& margin) {
+  return {box.min - margin, box.max + margin};
+}
+
+/// How far rays reach beyond a position; less upwards, where only credible openings let them.
+Eigen::Vector3d gainMargin(const map::GainEvaluator& evaluator) {
+  constexpr double kSteepest = 0.3;  // tangent of the steepest rays that matter beyond the box
+  return {evaluator.reach(), evaluator.reach(), kSteepest * evaluator.reach()};
+}
+
+Credibility credibilityOf(const GbPlannerParams& params) {
+  return {params.closing_height_m, params.opening_height_m};
+}
+
+}  // namespace
+
+PlanView::PlanView(const PlanRequest& request, const RobotModel& robot,
+                   const GbPlannerParams& params, const map::GainEvaluator& evaluator)
+    : request_(request),
+      params_(params),
+      evaluator_(evaluator),
+      local_box_(intersection(boxAround(request.pose.position, params.local_box_m),
+                              request.bounds)),
+      window_(*request.map, knownPart(grown(local_box_, robot.box_m), *request.map,
+                                      request.pose.position)),
+      inflated_(window_, robot.box_m),
+      checker_(std::make_unique<navigation::SegmentChecker>(request.map, robot.box_m)),
+      local_space_([this](const Eigen::Vector3d& a,
+                          const Eigen::Vector3d& b) { return inflated_.sweep(a, b); },
+                   robot.box_m, request.bounds, request.zones),
+      global_space_([this](const Eigen::Vector3d& a,
+                           const Eigen::Vector3d& b) { return checker_->sweep(a, b); },
+                    robot.box_m, request.bounds, request.zones) {}
+
+void PlanView::prepareGains() {
+  const AxisAlignedBox region = knownPart(grown(local_box_, gainMargin(evaluator_)),
+                                          *request_.map, request_.pose.position);
+  credible_ = credibleWindow(map::LocalWindow(*request_.map, region), credibilityOf(params_));
+}
+
+double PlanView::gainAt(const Eigen::Vector3d& position, double yaw) const {
+  require(credible_.has_value(), "PlanView: prepareGains was not called");
+  return evaluator_.evaluate(*credible_, position, yaw, request_.bounds).unknown_m3;
+}
+
+double gainAnywhere(const PlanRequest& request, const GbPlannerParams& params,
+                    const map::GainEvaluator& evaluator, const Eigen::Vector3d& position,
+                    double yaw) {
+  const Eigen::Vector3d size = 2.0 * gainMargin(evaluator);
+  const map::LocalWindow window(*request.map,
+                                knownPart(boxAround(position, size), *request.map, position));
+  return evaluator
+      .evaluate(credibleWindow(window, credibilityOf(params)), position, yaw, request.bounds)
+      .unknown_m3;
+}
+
+}  // namespace spelunk::planners::gbplanner

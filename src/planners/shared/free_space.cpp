@@ -1,0 +1,23 @@
+#include "spelunk/planners/shared/free_space.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace spelunk::planners {
+
+FreeSpace::FreeSpace(Sweep sweep, const Eigen::Vector3d& box_size, const AxisAlignedBox& bounds,
+                     const std::vector<NoGoZone>& zones)
+    : sweep_(std::move(sweep)), box_size_(box_size), bounds_(bounds), zones_(zones) {}
+
+Rejection FreeSpace::along(const Eigen::Vector3d& a, const Eigen::Vector3d& b) const {
+  if (!bounds_.contains(a) || !bounds_.contains(b)) return Rejection::kOutOfBounds;
+  const map::Occupancy swept = sweep_(a, b);
+  if (swept == map::Occupancy::kOccupied) return Rejection::kOccupied;
+  if (swept == map::Occupancy::kUnknown) return Rejection::kUnknown;
+  const bool meets_zone = std::any_of(zones_.begin(), zones_.end(), [&](const NoGoZone& zone) {
+    return sweptBoxMeets(zone, a, b, box_size_);
+  });
+  return meets_zone ? Rejection::kNoGo : Rejection::kNone;
+}
+
+}  // namespace spelunk::planners
