@@ -24,6 +24,8 @@ struct MissionParams {
   double plan_ahead_s = 1.5;          ///< A new path takes over this long after it was asked for.
   double deviation_max_m = 0.8;
   double home_radius_m = 1.0;
+  double replan_period_s = 2.0;       ///< Local paths are renewed this often while they are flown.
+  double start_clearance_m = 1.0;     ///< Unknown space so near around the start counts as free.
   int max_samples = 10000;
 
   template <class Visitor>
@@ -34,6 +36,8 @@ struct MissionParams {
     field("plan_ahead_s", plan_ahead_s, Bounds{0.0, 30.0}, "the next path starts this far ahead");
     field("deviation_max_m", deviation_max_m, Bounds{0.05, 10.0}, "farther from the path: hold and replan");
     field("home_radius_m", home_radius_m, Bounds{0.1, 10.0}, "nearer counts as home");
+    field("replan_period_s", replan_period_s, Bounds{0.2, 1000.0}, "a local path is renewed so often");
+    field("start_clearance_m", start_clearance_m, Bounds{0.0, 5.0}, "unknown space around the start taken as free");
     field("max_samples", max_samples, Bounds{10, 10000000}, "samples tried by one plan");
   }
 };
@@ -113,6 +117,13 @@ class Mission {
   Answer emergencyStop();
   Answer setBounds(const AxisAlignedBox& bounds);
   Answer setZones(std::vector<NoGoZone> zones);
+
+  /// Flies a path that was planned outside, from about here; only while the mission does not run.
+  /// Checked like any other path, way home from its end included; holds at its end.
+  Answer goTo(const Path& path);
+  /// A plan's request from where the robot is, for plans that are only looked at; none before the
+  /// first good odometry.
+  [[nodiscard]] std::optional<planners::PlanRequest> requestHere(double now_s);
 
   // --- The cycle, about 10 Hz.
   /// Advances the state machine to `now_s`; returns a new command if there is one.

@@ -1,0 +1,80 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "spelunk/common/path.h"
+#include "spelunk/graph/shortest_paths.h"
+#include "spelunk/graph/spatial_graph.h"
+#include "spelunk/map/frozen_map.h"
+#include "spelunk/navigation/path_monitor.h"
+
+namespace spelunk::mission {
+
+/// All ways home that are known for sure: the robot's own trail, shortcuts where it passes itself
+/// within a free straight line, and checked ways of the planner. Kept up with the map: what becomes
+/// occupied cuts edges. Flown edges count with a tighter box once the robot's full box no longer
+/// fits, for it has been there; they are then used only where nothing else is left.
+class HomeGraph {
+ public:
+  /// `box`: the robot's, full extents, metres, margin included.
+  HomeGraph(const Pose& home, const Eigen::Vector3d& box, double resolution_m);
+
+  /// The box that flown edges are checked with in the last resort.
+  [[nodiscard]] static Eigen::Vector3d tightBox(const Eigen::Vector3d& box) { return 0.75 * box; }
+
+  /// Where the robot is; kept when half a metre from the last kept place.
+  void addTrail(const Pose& pose);
+  /// A path known to be free that begins near the trail; its waypoints join the graph.
+  void addRoute(const Path& route);
+  /// Cuts the edges that the box could not fly any more.
+  void noteOccupied(const std::vector<map::VoxelIndex>& voxels);
+  /// Tries shortcuts from the places added since the last call and takes up cut edges that are free
+  /// again (some a call).
+  void connect(const map::FrozenMap& map);
+  /// The same for every cut edge; for when no way is left.
+  void recheckAll(const map::FrozenMap& map);
+
+  /// The shortest known way from a pose to home, first waypoint `from`, last one home; none if the
+  /// graph is cut.
+  [[nodiscard]] std::optional<Path> wayFrom(const Pose& from);
+
+  [[nodiscard]] const Path& trail() const { return trail_; }
+  [[nodiscard]] const Pose& home() const { return trail_.front(); }
+  [[nodiscard]] std::size_t size() const { return graph_.vertexCount(); }
+
+ private:
+  enum class EdgeState { kOpen, kTight, kCut };
+  struct Edge {
+    graph::VertexId a{};
+    graph::VertexId b{};
+    bool is_flown = false;
+    EdgeState state = EdgeState::kOpen;
+  };
+  enum class Origin { kFlown, kChecked };
+
+  graph::VertexId addVertex(const Eigen::Vector3d& position);
+  void addEdge(graph::VertexId a, graph::VertexId b, Origin origin);
+  void setState(Edge& edge, EdgeState state);
+  void tryShortcuts(graph::VertexId id, const map::FrozenMap& map);
+  void recheck(Edge& edge, const map::FrozenMap& map);
+  [[nodiscard]] bool isFree(graph::VertexId a, graph::VertexId b, const Eigen::Vector3d& box,
+                            const map::FrozenMap& map) const;
+  const graph::ShortestPaths& fromHome();
+
+  Eigen::Vector3d box_;
+  graph::SpatialGraph graph_;
+  std::vector<Edge> edges_;
+  navigation::SweptIndex swept_;
+  navigation::SweptIndex swept_tight_;
+  Path trail_;
+  graph::VertexId last_trail_vertex_{};
+  std::size_t next_to_connect_ = 1;
+  std::vector<std::uint32_t> cut_;  ///< Edges that are not open, oldest first.
+  std::optional<graph::ShortestPaths> from_home_;
+};
+
+}  // namespace spelunk::mission

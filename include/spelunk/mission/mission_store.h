@@ -1,0 +1,28 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "spelunk/common/box.h"
+#include "spelunk/common/path.h"
+#include "spelunk/planners/exploration_planner.h"
+
+namespace spelunk::mission {
+
+/// What is kept of a mission beside its map.
+struct MissionRecord {
+  AxisAlignedBox bounds;
+  std::vector<NoGoZone> zones;
+  Path trail;                ///< First pose: home.
+  double remaining_s = 0.0;  ///< Endurance when it was saved.
+  planners::PlannerGraph graph;
+};
+
+/// Writes `folder`/mission.json through a temporary file; makes the folder. Throws OutsideError with
+/// path and reason.
+void writeRecord(const std::string& folder, const MissionRecord& record);
+
+/// Reads what writeRecord() wrote. Throws OutsideError if it is missing or not such a file.
+[[nodiscard]] MissionRecord readRecord(const std::string& folder);
+
+}  // namespace spelunk::mission

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "spelunk/common/params.h"
+#include "spelunk/common/robot_model.h"
+#include "spelunk/map/occupancy_map.h"
+#include "spelunk/mission/mission.h"
+
+namespace spelunk::mission {
+
+/// The folder that holds config/, worlds/ and scripts/: $SPELUNK_SHARE if set, else the installed
+/// share folder, else the source folder. Throws OutsideError that names all places looked at.
+[[nodiscard]] std::string shareDir();
+
+/// Which configuration a run asks for.
+struct RunChoice {
+  std::string share_dir;                 ///< See shareDir().
+  std::string robot = "aerial";          ///< config/robots/<robot>.yaml
+  std::string planner = "gbplanner";     ///< config/planners/<planner>.yaml
+  std::vector<std::string> assignments;  ///< "name=value", from the command line; they win.
+};
+
+/// The configuration of a whole run. Whoever reads further sections (sim, the planner) does so from
+/// `tree` and calls tree.requireClean() last, which reports all problems in one message.
+struct RunConfig {
+  ParamTree tree;
+  RobotModel robot;
+  map::MapParams map;
+  MissionParams mission;
+  std::string planner;
+};
+
+/// Reads robot, sensors, map and mission from the files of a choice. Throws OutsideError if a file
+/// is missing or not YAML; an unknown robot lists the known ones.
+[[nodiscard]] RunConfig loadRunConfig(const RunChoice& choice);
+
+}  // namespace spelunk::mission

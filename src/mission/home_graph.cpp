@@ -1,0 +1,162 @@
+#include "spelunk/mission/home_graph.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "spelunk/navigation/swept_path_check.h"
+
+namespace spelunk::mission {
+namespace {
+
+constexpr double kTrailSpacing_m = 0.5;
+constexpr double kRouteSpacing_m = 1.0;
+constexpr double kShortcutReach_m = 2.5;
+constexpr double kShortcutWorth = 2.0;   // a shortcut saves at least half of the way between
+constexpr std::size_t kShortcutTries = 4;
+constexpr double kTightCost = 20.0;      // flown once, but the margin is gone: the last resort
+constexpr double kJoinReach_m = 2.0;
+constexpr double kJoinCost = 1.5;
+constexpr std::size_t kRechecksPerCall = 20;
+
+}  // namespace
+
+HomeGraph::HomeGraph(const Pose& home, const Eigen::Vector3d& box, double resolution_m)
+    : box_(box), swept_(box, resolution_m), swept_tight_(tightBox(box), resolution_m) {
+  trail_.push_back(home);
+  last_trail_vertex_ = addVertex(home.position);
+}
+
+graph::VertexId HomeGraph::addVertex(const Eigen::Vector3d& position) {
+  from_home_.reset();
+  return graph_.addVertex(position);
+}
+
+void HomeGraph::addEdge(graph::VertexId a, graph::VertexId b, Origin origin) {
+  if (a == b || graph_.hasEdge(a, b)) return;
+  const auto id = static_cast<std::uint32_t>(edges_.size());
+  edges_.push_back({a, b, origin == Origin::kFlown, EdgeState::kOpen});
+  const Eigen::Vector3d& from = graph_.position(a);
+  const Eigen::Vector3d& to = graph_.position(b);
+  graph_.addEdge(a, b, (to - from).norm());
+  swept_.add(from, to, id);
+  swept_tight_.add(from, to, id);
+  from_home_.reset();
+}
+
+void HomeGraph::addTrail(const Pose& pose) {
+  if (distance(pose, trail_.back()) < kTrailSpacing_m) return;
+  trail_.push_back(pose);
+  const graph::VertexId id = addVertex(pose.position);
+  addEdge(last_trail_vertex_, id, Origin::kFlown);
+  last_trail_vertex_ = id;
+}
+
+void HomeGraph::addRoute(const Path& route) {
+  if (route.empty()) return;
+  auto last = graph_.findNearest(route.front().position);
+  for (const Pose& pose : resampled(route, kRouteSpacing_m)) {
+    const auto near = graph_.findNearest(pose.position);
+    const bool joins = near && (graph_.position(*near) - pose.position).norm() < 0.1;
+    const graph::VertexId id = joins ? *near : addVertex(pose.position);
+    if (last) addEdge(*last, id, Origin::kChecked);
+    last = id;
+  }
+}
+
+void HomeGraph::setState(Edge& edge, EdgeState state) {
+  if (edge.state == state) return;
+  edge.state = state;
+  from_home_.reset();
+  const double length = (graph_.position(edge.a) - graph_.position(edge.b)).norm();
+  if (state == EdgeState::kCut) {
+    graph_.removeEdge(edge.a, edge.b);
+  } else {
+    graph_.addEdge(edge.a, edge.b, state == EdgeState::kTight ? kTightCost * length : length);
+  }
+}
+
+void HomeGraph::noteOccupied(const std::vector<map::VoxelIndex>& voxels) {
+  for (const map::VoxelIndex& voxel : voxels) {
+    for (const auto& hit : swept_.touching(voxel)) {
+      Edge& edge = edges_[hit.id];
+      if (edge.state != EdgeState::kOpen) continue;
+      setState(edge, edge.is_flown ? EdgeState::kTight : EdgeState::kCut);
+      cut_.push_back(hit.id);
+    }
+    for (const auto& hit : swept_tight_.touching(voxel)) setState(edges_[hit.id], EdgeState::kCut);
+  }
+}
+
+bool HomeGraph::isFree(graph::VertexId a, graph::VertexId b, const Eigen::Vector3d& box,
+                       const map::FrozenMap& map) const {
+  const Path line{{graph_.position(a), 0.0}, {graph_.position(b), 0.0}};
+  return navigation::checkPath(map, line, box, {}, {}).isFree();
+}
+
+void HomeGraph::recheck(Edge& edge, const map::FrozenMap& map) {
+  if (isFree(edge.a, edge.b, box_, map)) {
+    setState(edge, EdgeState::kOpen);
+  } else if (edge.is_flown && isFree(edge.a, edge.b, tightBox(box_), map)) {
+    setState(edge, EdgeState::kTight);
+  }
+}
+
+void HomeGraph::connect(const map::FrozenMap& map) {
+  const std::size_t count = graph_.vertexCount();
+  for (; next_to_connect_ < count; ++next_to_connect_)
+    tryShortcuts(static_cast<graph::VertexId>(next_to_connect_), map);
+  const std::size_t some = std::min(cut_.size(), kRechecksPerCall);
+  const std::vector<std::uint32_t> first(cut_.begin(), cut_.begin() + static_cast<long>(some));
+  cut_.erase(cut_.begin(), cut_.begin() + static_cast<long>(some));
+  for (const std::uint32_t id : first) {
+    recheck(edges_[id], map);
+    if (edges_[id].state != EdgeState::kOpen) cut_.push_back(id);
+  }
+}
+
+void HomeGraph::recheckAll(const map::FrozenMap& map) {
+  for (Edge& edge : edges_)
+    if (edge.state != EdgeState::kOpen) recheck(edge, map);
+}
+
+void HomeGraph::tryShortcuts(graph::VertexId id, const map::FrozenMap& map) {
+  std::size_t tries = 0;
+  for (const graph::VertexId other : graph_.findWithin(graph_.position(id), kShortcutReach_m)) {
+    if (other >= id || graph_.hasEdge(id, other)) continue;
+    const double gap = (graph_.position(id) - graph_.position(other)).norm();
+    const double between = static_cast<double>(graph::indexOf(id) - graph::indexOf(other)) *
+                           kTrailSpacing_m;
+    if (between < kShortcutWorth * std::max(gap, kTrailSpacing_m)) continue;
+    if (++tries > kShortcutTries) return;
+    if (isFree(id, other, box_, map)) addEdge(id, other, Origin::kChecked);
+  }
+}
+
+const graph::ShortestPaths& HomeGraph::fromHome() {
+  if (!from_home_) from_home_ = graph::shortestPaths(graph_, graph::VertexId{0});
+  return *from_home_;
+}
+
+std::optional<Path> HomeGraph::wayFrom(const Pose& from) {
+  const graph::ShortestPaths& paths = fromHome();
+  std::optional<graph::VertexId> best;
+  double least = std::numeric_limits<double>::infinity();
+  std::vector<graph::VertexId> near = graph_.findWithin(from.position, kJoinReach_m);
+  if (near.empty()) near.push_back(*graph_.findNearest(from.position));
+  for (const graph::VertexId id : near) {
+    if (!paths.reaches(id)) continue;
+    const double cost = kJoinCost * (graph_.position(id) - from.position).norm() +
+                        paths.distanceTo(id);
+    if (cost >= least) continue;
+    least = cost;
+    best = id;
+  }
+  if (!best) return std::nullopt;
+  std::vector<graph::VertexId> ids = paths.pathTo(*best);
+  Path way{from};
+  for (auto id = ids.rbegin(); id != ids.rend(); ++id) way.push_back({graph_.position(*id), from.yaw});
+  way.back().yaw = home().yaw;
+  return way;
+}
+
+}  // namespace spelunk::mission

@@ -1,0 +1,162 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "spelunk/common/log.h"
+#include "spelunk/common/rng.h"
+#include "spelunk/mission/endurance_guard.h"
+#include "spelunk/mission/home_graph.h"
+#include "spelunk/mission/input_guard.h"
+#include "spelunk/mission/mission.h"
+#include "spelunk/mission/mission_store.h"
+#include "spelunk/mission/path_execution.h"
+#include "spelunk/navigation/trajectory_timing.h"
+
+namespace spelunk::mission {
+
+/// What the mission is about at the moment; the state says what it does for it.
+enum class Goal { kNone, kExplore, kHome };
+
+/// A plan that was handed out.
+struct RunningJob {
+  std::uint64_t number = 0;
+  bool explore = true;
+  bool from_standstill = false;
+  double asked_s = 0.0;
+  double takes_over_s = 0.0;  ///< When the robot is where the plan begins.
+  Pose pose;                  ///< There.
+};
+
+/// A way home that was checked, beginning at the end of the active path.
+struct KnownRoute {
+  Path path;
+  double travel_s = 0.0;
+  navigation::PathMonitor monitor;
+};
+
+struct WayHome {
+  Path path;
+  double travel_s = 0.0;  ///< Not pessimistic.
+  bool follows_active = false;  ///< Begins with the rest of the active path.
+};
+
+/// State and steps of the mission. Steps that belong together share a .cpp:
+/// mission_inputs, mission_cycle, mission_plans, mission_home.
+struct Mission::Impl {
+  Impl(const MissionParams& mission_params, const RobotModel& robot_model,
+       const map::MapParams& map_params, std::uint64_t seed);
+
+  // --- Inputs (mission_inputs.cpp).
+  void takeOdometry(const RobotState& state);
+  map::MapUpdate takeScan(const Scan& scan);
+  [[nodiscard]] std::optional<std::string> faultOf(const Scan& scan) const;
+  void takeRemaining(double remaining);
+  Answer start();
+  Answer pause();
+  Answer goHomeAsAsked();
+  Answer emergencyStop();
+  Answer setBounds(const AxisAlignedBox& box);
+  Answer setZones(std::vector<NoGoZone> list);
+  [[nodiscard]] std::string startProblem();
+  void takeUp(const MissionRecord& record);
+
+  // --- The cycle (mission_cycle.cpp).
+  std::optional<Command> tick(double now_s);
+  void updateRemaining();
+  [[nodiscard]] bool isFlying() const;
+  void checkInputs();
+  void checkDeviation();
+  void checkArrival();
+  void checkAhead();
+  void checkEndurance();
+  void enter(MissionState next, const std::string& why);
+  void hold(const std::string& why, planners::PathOutcome outcome);
+  void say(LogLevel level, const std::string& key, const std::string& text);
+  [[nodiscard]] bool isAtRest() const;
+  std::optional<Command> takeCommand();
+
+  // --- Plans (mission_plans.cpp).
+  void askForPlan();
+  [[nodiscard]] bool wantsPlan() const;
+  [[nodiscard]] bool wantsPlanInFlight() const;
+  void makeJob();
+  std::optional<Command> accept(const PlanOutcome& outcome, double now_s);
+  void acceptExploration(const RunningJob& job, const PlanOutcome& outcome);
+  void acceptWayHome(const RunningJob& job, const planners::PlanResult& home);
+  void onNoPlan(const RunningJob& job, const planners::PlanResult& plan);
+  void onFailedPlan(const std::string& why);
+  void refuse(const std::string& why, planners::PathOutcome outcome);
+  [[nodiscard]] Path joined(const RunningJob& job, const Path& path) const;
+  [[nodiscard]] double affordableLength(const Path& path, const std::optional<Path>& home_path);
+  [[nodiscard]] Trajectory smoothest(const Path& path, const navigation::MotionStart& start,
+                                     const Eigen::Vector3d& box);
+  void fly(const Path& path, planners::PathKind kind, const Eigen::Vector3d& box);
+
+  // --- The way home (mission_home.cpp).
+  void noteRoute(const Path& rest, const planners::PlanResult& home);
+  [[nodiscard]] std::optional<WayHome> wayByTrail();
+  [[nodiscard]] std::optional<WayHome> wayByRoute() const;
+  void refreshWayHome();
+  void goHome(const std::string& why);
+  void stepHome();
+  void launchHome();
+  [[nodiscard]] Path fromMotion(const WayHome& way) const;
+  [[nodiscard]] bool isWayClear(const Path& path, const Eigen::Vector3d& box);
+  [[nodiscard]] bool isAtHome() const;
+
+  // --- Parts.
+  MissionParams params;
+  RobotModel robot;
+  map::OccupancyMap map;
+  Rng rng;
+  InputGuard input;
+  EnduranceGuard guard;
+  Throttle throttle;
+  std::optional<HomeGraph> home_graph;
+  std::optional<PathExecution> active;
+  std::optional<KnownRoute> route;
+
+  // --- State.
+  MissionState state = MissionState::kIdle;
+  Goal goal = Goal::kNone;
+  MissionStatus status;
+  double now = 0.0;
+  std::optional<double> started_s;
+  std::optional<double> last_odometry_s;
+  std::optional<double> last_scan_s;
+  std::optional<double> reported_remaining_s;
+  std::optional<std::string> input_fault;
+  bool inputs_ok = false;
+  Pose last_pose;  ///< Of the newest good odometry.
+  double hold_since_s = 0.0;
+  int scans = 0;
+  AxisAlignedBox limits;
+  std::vector<NoGoZone> no_go;
+  std::shared_ptr<const map::FrozenMap> frozen;
+
+  // --- Plans.
+  std::optional<PlanJob> pending;
+  std::optional<RunningJob> running;
+  std::uint64_t next_job = 1;
+  double next_ask_s = 0.0;
+  double last_accept_s = 0.0;
+  double latency_s = 0.0;
+  int failures = 0;
+  bool wants_way_home = false;
+  planners::PathOutcome last_outcome = planners::PathOutcome::kNone;
+  std::string last_reason;
+
+  // --- What there is to see.
+  std::vector<planners::StampedPose> stamped_trail;
+  std::vector<planners::RemainingTarget> remaining_targets;
+  Path way_home;
+  double way_home_s = 0.0;
+  double next_refresh_s = 0.0;
+  double next_merge_s = 0.0;
+  std::optional<Command> command;
+};
+
+}  // namespace spelunk::mission

@@ -1,0 +1,171 @@
+#include <algorithm>
+#include <cmath>
+
+#include "mission_impl.h"
+#include "spelunk/common/stopwatch.h"
+
+namespace spelunk::mission {
+namespace {
+
+constexpr double kBodyShare = 0.5;  // of the safety box: returns from there are the robot itself
+constexpr double kTrailSpacing_m = 1.0;
+constexpr double kScanFuture_s = 1.0;
+
+bool isFinitePose(const Eigen::Isometry3d& pose) { return pose.matrix().allFinite(); }
+
+}  // namespace
+
+void Mission::Impl::takeOdometry(const RobotState& report) {
+  const auto fault = input.check(report);
+  if (fault) {
+    input_fault = fault;
+    say(LogLevel::kWarn, "odometry", *fault);
+    return;
+  }
+  if (!input_fault && last_odometry_s) status.distance_m += distance(last_pose, report.pose);
+  last_pose = report.pose;
+  input_fault.reset();
+  last_odometry_s = std::max(now, report.stamp_s);
+  if (!home_graph) return;
+  const Pose& pose = report.pose;
+  const std::size_t before = home_graph->trail().size();
+  home_graph->addTrail(pose);
+  if (home_graph->trail().size() != before) map.markFree(boxAround(pose.position, robot.box_m));
+  if (stamped_trail.empty() || distance(stamped_trail.back().pose, pose) >= kTrailSpacing_m)
+    stamped_trail.push_back({report.stamp_s, pose});
+}
+
+std::optional<std::string> Mission::Impl::faultOf(const Scan& scan) const {
+  if (!std::isfinite(scan.stamp_s) || !isFinitePose(scan.T_world_sensor))
+    return "a scan's stamp or pose is not finite: check tf";
+  if (scan.stamp_s > now + kScanFuture_s && last_scan_s)
+    return "a scan's stamp lies in the future: check the clocks";
+  if (scan.points.empty()) return "a scan without points: check the sensor";
+  return std::nullopt;
+}
+
+map::MapUpdate Mission::Impl::takeScan(const Scan& scan) {
+  if (const auto fault = faultOf(scan)) {
+    say(LogLevel::kWarn, "scan", *fault);
+    return {};
+  }
+  const Stopwatch watch;
+  const Eigen::Vector3d centre =
+      input.latest() ? input.latest()->pose.position : scan.T_world_sensor.translation();
+  map::MapUpdate update = map.insert(scan, boxAround(centre, kBodyShare * robot.box_m));
+  status.last_map_update_ms = watch.milliseconds();
+  last_scan_s = std::max(now, scan.stamp_s);
+  ++scans;
+  if (update.newly_occupied.empty()) return update;
+  if (home_graph) home_graph->noteOccupied(update.newly_occupied);
+  if (active) active->noteOccupied(update.newly_occupied, now);
+  if (route && route->monitor.firstHit(update.newly_occupied)) {
+    route.reset();
+    next_refresh_s = now;
+  }
+  return update;
+}
+
+void Mission::Impl::takeRemaining(double remaining) {
+  if (!std::isfinite(remaining) || remaining < 0.0) {
+    say(LogLevel::kWarn, "battery", "the reported endurance is not a number: it is not used");
+    return;
+  }
+  reported_remaining_s = remaining;
+}
+
+std::string Mission::Impl::startProblem() {
+  if (!input.latest()) return "no odometry yet: check the topic and the state estimation";
+  const Eigen::Vector3d& position = input.latest()->pose.position;
+  if (!limits.contains(position))
+    return "the robot stands outside the bounds: widen them or move it";
+  for (const NoGoZone& zone : no_go)
+    if (sweptBoxMeets(zone, position, position, robot.box_m))
+      return "the robot stands in no-go zone '" + zone.name + "': remove it or move the robot";
+  const auto view = map.freeze();
+  bool collides = false;
+  const Eigen::Vector3d body = kBodyShare * robot.box_m;
+  view->forEachOccupied(boxAround(position, body), [&](const map::VoxelIndex&) { collides = true; });
+  if (collides) return "start in collision: the map is occupied where the robot stands";
+  return "";
+}
+
+Answer Mission::Impl::start() {
+  const std::string problem = startProblem();
+  if (!problem.empty()) {
+    status.reason = problem;
+    return {false, problem};
+  }
+  const Pose pose = input.latest()->pose;
+  if (!home_graph) {
+    home_graph.emplace(pose, robot.box_m, map.params().resolution_m);
+    const Eigen::Vector3d room(params.start_clearance_m, params.start_clearance_m, 0.0);
+    map.markFree(boxAround(pose.position, robot.box_m + 2.0 * room));
+    stamped_trail.push_back({input.latest()->stamp_s, pose});
+  }
+  if (!started_s) started_s = now;
+  goal = Goal::kExplore;
+  failures = 0;
+  next_ask_s = now;
+  status.end_reason.clear();
+  enter(MissionState::kExplore, "started");
+  return {true, "exploring"};
+}
+
+Answer Mission::Impl::pause() {
+  if (!isFlying()) return {false, "nothing to pause: the mission is not running"};
+  goal = Goal::kNone;
+  hold("paused: start takes up the mission again", planners::PathOutcome::kReplaced);
+  return {true, "holding until start"};
+}
+
+Answer Mission::Impl::goHomeAsAsked() {
+  if (!home_graph) return {false, "there is no home yet: start the mission first"};
+  if (state == MissionState::kEStop) return {false, "emergency stop is on: start releases it"};
+  goHome("home as asked");
+  return {true, "going home"};
+}
+
+Answer Mission::Impl::emergencyStop() {
+  goal = Goal::kNone;
+  active.reset();
+  pending.reset();
+  running.reset();
+  command = Command{};
+  enter(MissionState::kEStop, "emergency stop: start releases it");
+  return {true, "stopped"};
+}
+
+void Mission::Impl::takeUp(const MissionRecord& record) {
+  limits = record.bounds;
+  no_go = record.zones;
+  if (record.trail.empty()) return;
+  home_graph.emplace(record.trail.front(), robot.box_m, map.params().resolution_m);
+  for (const Pose& pose : record.trail) home_graph->addTrail(pose);
+}
+
+Answer Mission::Impl::setBounds(const AxisAlignedBox& box) {
+  if (box.isEmpty() || box.min.hasNaN() || box.max.hasNaN())
+    return {false, "the bounds are empty: min must lie below max on each axis"};
+  if (input.latest() && !box.contains(input.latest()->pose.position))
+    return {false, "the bounds exclude the robot: choose them around it"};
+  limits = box;
+  if (active && active->kind() != planners::PathKind::kHome) next_ask_s = now;
+  return {true, "bounds set"};
+}
+
+Answer Mission::Impl::setZones(std::vector<NoGoZone> list) {
+  for (const NoGoZone& zone : list) {
+    if (zone.polygon.size() < 3)
+      return {false, "no-go zone '" + zone.name + "' needs at least three corners"};
+    if (!(zone.z_min < zone.z_max))
+      return {false, "no-go zone '" + zone.name + "': z_min must lie below z_max"};
+    if (input.latest() && sweptBoxMeets(zone, input.latest()->pose.position,
+                                        input.latest()->pose.position, robot.box_m))
+      return {false, "no-go zone '" + zone.name + "' holds the robot: move it out first"};
+  }
+  no_go = std::move(list);
+  return {true, std::to_string(no_go.size()) + " no-go zone(s) set"};
+}
+
+}  // namespace spelunk::mission

@@ -1,0 +1,71 @@
+#include "spelunk/mission/run_config.h"
+
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+
+#include "spelunk/common/contract.h"
+
+namespace spelunk::mission {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Stems of the YAML files in a folder, sorted.
+std::string namesIn(const std::string& folder) {
+  std::vector<std::string> names;
+  std::error_code error;
+  for (const auto& entry : fs::directory_iterator(folder, error))
+    if (entry.path().extension() == ".yaml") names.push_back(entry.path().stem().string());
+  std::sort(names.begin(), names.end());
+  std::string text;
+  for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
+  return text;
+}
+
+void addNamed(ParamTree& tree, const std::string& folder, const std::string& kind,
+              const std::string& name) {
+  const std::string path = folder + "/" + name + ".yaml";
+  if (!fs::exists(path))
+    throw OutsideError("unknown " + kind + " '" + name + "' (no " + path + "); known: " +
+                       namesIn(folder));
+  tree.addYamlFile(path);
+}
+
+void addIfPresent(ParamTree& tree, const std::string& path) {
+  if (fs::exists(path)) tree.addYamlFile(path);
+}
+
+}  // namespace
+
+std::string shareDir() {
+  std::vector<std::string> places;
+  if (const char* given = std::getenv("SPELUNK_SHARE")) places.emplace_back(given);
+  places.emplace_back(SPELUNK_SOURCE_SHARE);
+  places.emplace_back(SPELUNK_INSTALL_SHARE);
+  std::string looked_at;
+  for (const std::string& place : places) {
+    if (fs::exists(place + "/config/robots")) return place;
+    looked_at += "\n  - " + place;
+  }
+  throw OutsideError("no folder with config/robots found; set SPELUNK_SHARE. Looked at:" +
+                     looked_at);
+}
+
+RunConfig loadRunConfig(const RunChoice& choice) {
+  RunConfig config;
+  const std::string dir = choice.share_dir + "/config";
+  addNamed(config.tree, dir + "/robots", "robot", choice.robot);
+  for (const char* name : {"map", "mission", "sim"})
+    addIfPresent(config.tree, dir + "/" + name + ".yaml");
+  addIfPresent(config.tree, dir + "/planners/" + choice.planner + ".yaml");
+  for (const std::string& assignment : choice.assignments)
+    config.tree.setAssignment(assignment, "--set");
+  config.robot = loadRobot(config.tree, choice.robot, dir);
+  config.tree.read("map", config.map);
+  config.tree.read("mission", config.mission);
+  config.planner = choice.planner;
+  return config;
+}
+
+}  // namespace spelunk::mission
