@@ -1,0 +1,55 @@
+#pragma once
+
+#include <sensor_msgs/PointCloud2.h>
+
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+#include "spelunk/common/params.h"
+#include "spelunk/ros/convert.h"
+
+namespace spelunk::bridge {
+
+/// What happens to a cloud before it enters the map (section "cloud"). The filters are PCL's and
+/// off by default: the map itself forgives single wrong returns.
+struct CloudParams {
+  double tf_wait_s = 0.5;
+  double age_max_s = 5.0;
+  double future_max_s = 0.5;
+  std::string outlier_filter = "none";
+  int outlier_neighbours = 8;
+  double outlier_stddevs = 2.0;
+  double outlier_radius_m = 0.5;
+  double voxel_size_m = 0.0;
+
+  template <class Visitor>
+  void visit(Visitor&& field) {
+    field("tf_wait_s", tf_wait_s, Bounds{0.0, 10.0}, "a cloud waits this long for its transform");
+    field("age_max_s", age_max_s, Bounds{0.1, 1000.0}, "older clouds are refused");
+    field("future_max_s", future_max_s, Bounds{0.0, 100.0}, "clouds stamped later are refused");
+    field("outlier_filter", outlier_filter, Bounds{},
+          "against dust: none, statistical or radius");
+    field("outlier_neighbours", outlier_neighbours, Bounds{1, 1000},
+          "neighbours looked at (statistical) or wanted (radius)");
+    field("outlier_stddevs", outlier_stddevs, Bounds{0.0, 20.0},
+          "statistical: farther than the mean by so many deviations goes");
+    field("outlier_radius_m", outlier_radius_m, Bounds{0.01, 10.0},
+          "radius: where neighbours are looked for");
+    field("voxel_size_m", voxel_size_m, Bounds{0.0, 5.0},
+          "one point a voxel for dense sensors; 0: off");
+  }
+  [[nodiscard]] std::vector<std::string> problems() const;
+};
+
+/// The points of a cloud in its own frame, those that are not finite left out. Fields x, y, z may
+/// be float32 or float64 at any offset. Refused: missing fields, other types, big-endian data, a
+/// layout that does not fit the data, no points at all.
+[[nodiscard]] FromMsg<std::vector<Eigen::Vector3f>> pointsFromMsg(
+    const sensor_msgs::PointCloud2& cloud);
+
+/// `points` after the filters that `params` switches on: outliers first, then the voxel grid.
+[[nodiscard]] std::vector<Eigen::Vector3f> filtered(std::vector<Eigen::Vector3f> points,
+                                                    const CloudParams& params);
+
+}  // namespace spelunk::bridge

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <memory>
+
+#include "spelunk/common/robot_model.h"
+#include "spelunk/map/occupancy_map.h"
+#include "spelunk/mission/mission.h"
+#include "spelunk/planners/exploration_planner.h"
+#include "spelunk/ros/cloud_filter.h"
+#include "spelunk/ros/node_params.h"
+#include "spelunk/sim/simulator.h"
+
+namespace ros {
+class NodeHandle;
+}
+
+namespace spelunk::bridge {
+
+/// All that planner_node is built from.
+struct PlannerSetup {
+  PlannerNodeParams node;
+  CloudParams cloud;
+  RobotModel robot;
+  mission::MissionParams mission;
+  map::MapParams map;
+  std::unique_ptr<planners::ExplorationPlanner> planner;
+};
+
+/// All that sim_node is built from.
+struct SimSetup {
+  SimNodeParams node;
+  RobotModel robot;
+  sim::SimParams sim;
+  sim::WorldMesh world;
+  Pose start;
+};
+
+/// Reads the files of the configuration folder and the private parameters over them. Throws
+/// OutsideError with every problem at once: unreadable, out of range, unknown.
+[[nodiscard]] PlannerSetup loadPlannerSetup(const ::ros::NodeHandle& private_node);
+[[nodiscard]] SimSetup loadSimSetup(const ::ros::NodeHandle& private_node);
+
+}  // namespace spelunk::bridge

@@ -1,0 +1,64 @@
+#pragma once
+
+#include <nav_msgs/Odometry.h>
+#include <ros/callback_queue.h>
+#include <ros/node_handle.h>
+#include <ros/spinner.h>
+#include <sensor_msgs/BatteryState.h>
+#include <sensor_msgs/PointCloud2.h>
+#include <tf2_ros/buffer.h>
+#include <tf2_ros/transform_listener.h>
+
+#include <string>
+
+#include "spelunk/ros/cloud_filter.h"
+#include "spelunk/ros/mission_core.h"
+#include "spelunk/ros/node_params.h"
+#include "spelunk/ros/pending_clouds.h"
+
+namespace spelunk::bridge {
+
+/// What planner_node listens to. Has its own queue and thread, the only one that writes the map.
+/// Bad messages are refused with a warning that names the thing and the remedy.
+class PlannerInputs {
+ public:
+  /// `core` must outlive this.
+  PlannerInputs(const ::ros::NodeHandle& node, const PlannerNodeParams& params,
+                const CloudParams& cloud_params, GuardedCore& core);
+  ~PlannerInputs();
+
+ private:
+  void onCloud(const sensor_msgs::PointCloud2::ConstPtr& cloud);
+  void onOdometry(const nav_msgs::Odometry::ConstPtr& odometry);
+  void onBattery(const sensor_msgs::BatteryState::ConstPtr& battery);
+  void onTimer();
+
+  void forgetAfterClockJump();
+  void enterReadyClouds(const ::ros::Time& now);
+  void enter(const PendingClouds::Item& item);
+  [[nodiscard]] std::string stampProblem(const ::ros::Time& stamp, const ::ros::Time& now) const;
+  [[nodiscard]] FromMsg<Eigen::Isometry3d> findTransform(const std::string& frame,
+                                                         const ::ros::Time& stamp) const;
+  void report(const std::string& key, const std::string& text);
+
+  PlannerNodeParams params_;
+  CloudParams cloud_params_;
+  GuardedCore& core_;
+  double endurance_s_;
+  PendingClouds pending_;
+  std::uint64_t jumps_seen_ = 0;
+  InputWatch::Wanted cloud_input_{};
+  InputWatch::Wanted odometry_input_{};
+
+  ::ros::NodeHandle node_;
+  ::ros::CallbackQueue queue_;
+  tf2_ros::Buffer tf_buffer_;
+  tf2_ros::TransformListener tf_listener_;
+  ::ros::Subscriber cloud_subscriber_;
+  ::ros::Subscriber odometry_subscriber_;
+  ::ros::Subscriber battery_subscriber_;
+  ::ros::Timer timer_;
+  ::ros::AsyncSpinner spinner_;
+};
+
+}  // namespace spelunk::bridge

@@ -1,0 +1,62 @@
+#pragma once
+
+#include <ros/node_handle.h>
+#include <ros/timer.h>
+#include <ros/wall_timer.h>
+
+#include <memory>
+#include <string>
+
+#include "spelunk/ros/mission_core.h"
+#include "spelunk/ros/node_params.h"
+#include "spelunk/ros/plan_worker.h"
+#include "spelunk/ros/planner_inputs.h"
+#include "spelunk/ros/planner_outputs.h"
+#include "spelunk/ros/planner_services.h"
+#include "spelunk/ros/node_setup.h"
+
+namespace spelunk::bridge {
+
+/// Explores with whatever robot or simulator sends clouds, odometry and tf. Converts, calls the
+/// mission and publishes; it decides nothing.
+///
+/// Threads: sensors (PlannerInputs), services (PlannerServices), one planner worker (PlanWorker), and
+/// the caller's, which runs the mission's tick and draws.
+class PlannerNode {
+ public:
+  /// Throws OutsideError with everything that is wrong with the parameters.
+  PlannerNode(const ::ros::NodeHandle& node, const ::ros::NodeHandle& private_node);
+
+  /// Works until ROS shuts down.
+  void run();
+
+ private:
+  PlannerNode(const ::ros::NodeHandle& node, const ::ros::NodeHandle& private_node,
+              PlannerSetup setup);
+
+  void tick();
+  void takeOver(const mission::PlanOutcome& outcome);
+  void startIfWanted(MissionCore& core, double now_s);
+  void publishStatusIfChanged(MissionCore& core, double now_s);
+  void publishStatus();
+  void publishViews();
+  [[nodiscard]] MissionView viewOf(MissionCore& core) const;
+  void publish(MissionCore& core, const mission::Command& command);
+
+  PlannerNodeParams params_;
+  ::ros::NodeHandle node_;
+  GuardedPlanner planner_;
+  GuardedCore core_;
+  Guarded<std::shared_ptr<const planners::PlannerGraph>> shown_graph_;
+  PlannerOutputs outputs_;  ///< Commands: with the core locked; views: in the caller's thread.
+  std::string last_said_;   ///< State and reason of the newest status; with the core locked.
+  Throttle start_refusals_;
+  PlanWorker worker_;
+  PlannerInputs inputs_;
+  PlannerServices services_;
+  ::ros::Timer tick_timer_;
+  ::ros::WallTimer status_timer_;
+  ::ros::WallTimer view_timer_;
+};
+
+}  // namespace spelunk::bridge

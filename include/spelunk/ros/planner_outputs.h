@@ -1,0 +1,64 @@
+#pragma once
+
+#include <ros/node_handle.h>
+#include <ros/publisher.h>
+
+#include <memory>
+#include <string>
+
+#include "spelunk/mission/mission.h"
+#include "spelunk/ros/markers.h"
+#include "spelunk/ros/mission_clock.h"
+
+namespace spelunk::bridge {
+
+/// What the mission looks like at one instant, copied out of its lock.
+struct MissionView {
+  mission::MissionStatus status;
+  RobotState robot;
+  Eigen::Vector3d box_m = Eigen::Vector3d::Ones();
+  Path active_path;
+  planners::PathKind kind = planners::PathKind::kLocal;
+  Path way_home;
+  Path trail;
+  AxisAlignedBox bounds;
+  std::vector<NoGoZone> zones;
+  std::vector<planners::RemainingTarget> remaining;
+  std::shared_ptr<const planners::PlannerGraph> graph;  ///< May be missing.
+  std::shared_ptr<const map::FrozenMap> map;            ///< May be missing.
+};
+
+/// Everything planner_node publishes. Nothing is built that nobody has subscribed to, the latched
+/// path apart.
+class PlannerOutputs {
+ public:
+  PlannerOutputs(::ros::NodeHandle& node, const std::string& world_frame);
+
+  /// The path and the same path timed; empty ones say "stop and hold".
+  void publishCommand(const mission::Command& command, const MissionClock& clock,
+                      const ::ros::Time& now);
+  void publishStatus(const mission::MissionStatus& status, const std::string& input_problem,
+                     const ::ros::Time& now);
+  void publishGraph(const planners::PlannerGraph& graph, const ::ros::Time& now);
+  void publishMarkers(const MissionView& view, const ::ros::Time& now);
+  void publishMapCloud(const map::FrozenMap& map, const ::ros::Time& now);
+  void publishOctomap(map::OccupancyMap& map, const ::ros::Time& now);
+
+  [[nodiscard]] bool wantsGraph() const { return graph_.getNumSubscribers() > 0; }
+  [[nodiscard]] bool wantsMarkers() const { return markers_.getNumSubscribers() > 0; }
+  [[nodiscard]] bool wantsMapCloud() const { return map_cloud_.getNumSubscribers() > 0; }
+  [[nodiscard]] bool wantsOctomap() const;  ///< Never, where octomap_msgs is not installed.
+
+ private:
+  std::string frame_;
+  ::ros::Publisher path_;
+  ::ros::Publisher trajectory_;
+  ::ros::Publisher status_;
+  ::ros::Publisher graph_;
+  ::ros::Publisher markers_;
+  ::ros::Publisher map_cloud_;
+  ::ros::Publisher octomap_;
+  MarkerBuilder marker_builder_;
+};
+
+}  // namespace spelunk::bridge

@@ -1,0 +1,62 @@
+#pragma once
+
+#include <ros/callback_queue.h>
+#include <ros/node_handle.h>
+#include <ros/spinner.h>
+#include <spelunk/GoTo.h>
+#include <spelunk/Load.h>
+#include <spelunk/Plan.h>
+#include <spelunk/Save.h>
+#include <spelunk/SetBounds.h>
+#include <spelunk/SetNoGoZones.h>
+#include <std_srvs/Trigger.h>
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "spelunk/ros/mission_core.h"
+#include "spelunk/ros/plan_worker.h"
+
+namespace spelunk::bridge {
+
+/// The services of planner_node. Each answers with success and a reason; none fails as a call, and
+/// none answers "true" with an empty path. Has its own queue and thread, for ~plan and ~save wait
+/// until a running plan is done.
+class PlannerServices {
+ public:
+  /// `core` and `planner` must outlive this. `seed`: of ~plan's and ~go_to's random draws.
+  PlannerServices(const ::ros::NodeHandle& private_node, const std::string& world_frame,
+                  std::uint64_t seed, GuardedCore& core, GuardedPlanner& planner);
+  ~PlannerServices();
+
+ private:
+  using Trigger = std_srvs::Trigger;
+
+  bool start(Trigger::Request& request, Trigger::Response& response);
+  bool pause(Trigger::Request& request, Trigger::Response& response);
+  bool home(Trigger::Request& request, Trigger::Response& response);
+  bool emergencyStop(Trigger::Request& request, Trigger::Response& response);
+  bool plan(Plan::Request& request, Plan::Response& response);
+  bool goTo(GoTo::Request& request, GoTo::Response& response);
+  bool setBounds(SetBounds::Request& request, SetBounds::Response& response);
+  bool setZones(SetNoGoZones::Request& request, SetNoGoZones::Response& response);
+  bool save(Save::Request& request, Save::Response& response);
+  bool load(Load::Request& request, Load::Response& response);
+
+  /// The draws of the next ~plan or ~go_to.
+  [[nodiscard]] Rng nextRng(const char* service);
+
+  std::string world_frame_;
+  Rng rng_;
+  int calls_ = 0;
+  GuardedCore& core_;
+  GuardedPlanner& planner_;
+
+  ::ros::NodeHandle node_;
+  ::ros::CallbackQueue queue_;
+  std::vector<::ros::ServiceServer> servers_;
+  ::ros::AsyncSpinner spinner_;
+};
+
+}  // namespace spelunk::bridge

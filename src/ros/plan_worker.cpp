@@ -1,0 +1,68 @@
+#include "spelunk/ros/plan_worker.h"
+
+#include <exception>
+#include <string>
+#include <utility>
+
+#include "spelunk/common/log.h"
+
+namespace spelunk::bridge {
+namespace {
+
+mission::PlanOutcome failed(const mission::PlanJob& job, const std::string& text) {
+  mission::PlanOutcome outcome;
+  outcome.number = job.number;
+  outcome.plan.status = planners::PlanStatus::kNoPath;
+  outcome.plan.reason = "the planner failed: " + text;
+  outcome.home = outcome.plan;
+  outcome.home.kind = planners::PathKind::kHome;
+  return outcome;
+}
+
+}  // namespace
+
+PlanWorker::PlanWorker(GuardedPlanner& planner, Finished finished)
+    : planner_(planner), finished_(std::move(finished)), thread_([this] { work(); }) {}
+
+PlanWorker::~PlanWorker() {
+  {
+    const std::lock_guard lock(mutex_);
+    stops_ = true;
+  }
+  wake_.notify_all();
+  thread_.join();
+}
+
+void PlanWorker::submit(mission::PlanJob job) {
+  {
+    const std::lock_guard lock(mutex_);
+    waiting_ = std::move(job);
+  }
+  wake_.notify_all();
+}
+
+std::optional<mission::PlanJob> PlanWorker::waitForJob() {
+  std::unique_lock lock(mutex_);
+  wake_.wait(lock, [this] { return stops_ || waiting_.has_value(); });
+  if (stops_) return std::nullopt;
+  return std::exchange(waiting_, std::nullopt);
+}
+
+void PlanWorker::work() {
+  while (const auto job = waitForJob()) {
+    mission::PlanOutcome outcome;
+    try {
+      outcome = planner_.with([&](auto& planner) { return mission::run(*job, *planner); });
+    } catch (const std::exception& error) {
+      log(LogLevel::kError, std::string("the planner failed: ") + error.what());
+      outcome = failed(*job, error.what());
+    }
+    try {
+      finished_(outcome);
+    } catch (const std::exception& error) {
+      log(LogLevel::kError, std::string("a plan could not be taken over: ") + error.what());
+    }
+  }
+}
+
+}  // namespace spelunk::bridge

@@ -1,0 +1,135 @@
+#include "spelunk/ros/planner_node.h"
+
+#include <ros/spinner.h>
+
+#include <optional>
+#include <utility>
+
+namespace spelunk::bridge {
+namespace {
+
+constexpr double kStatusPeriod_s = 1.0;
+
+}  // namespace
+
+PlannerNode::PlannerNode(const ::ros::NodeHandle& node, const ::ros::NodeHandle& private_node)
+    : PlannerNode(node, private_node, loadPlannerSetup(private_node)) {}
+
+PlannerNode::PlannerNode(const ::ros::NodeHandle& node, const ::ros::NodeHandle& private_node,
+                         PlannerSetup setup)
+    : params_(setup.node),
+      node_(node),
+      planner_(std::move(setup.planner)),
+      core_(setup.mission, setup.robot, setup.map, static_cast<std::uint64_t>(setup.node.seed),
+            setup.node.time_limit_s),
+      outputs_(node_, params_.world_frame),
+      worker_(planner_, [this](const mission::PlanOutcome& outcome) { takeOver(outcome); }),
+      inputs_(node_, params_, setup.cloud, core_),
+      services_(private_node, params_.world_frame, static_cast<std::uint64_t>(params_.seed), core_,
+                planner_),
+      tick_timer_(node_.createTimer(::ros::Duration(1.0 / params_.tick_rate_hz),
+                                    [this](const ::ros::TimerEvent&) { tick(); })),
+      status_timer_(node_.createWallTimer(::ros::WallDuration(kStatusPeriod_s),
+                                          [this](const ::ros::WallTimerEvent&) { publishStatus(); })),
+      view_timer_(node_.createWallTimer(::ros::WallDuration(params_.view_period_s),
+                                        [this](const ::ros::WallTimerEvent&) { publishViews(); })) {
+  core_.with([&](MissionCore& core) { core.wants_start = params_.auto_start; });
+}
+
+void PlannerNode::run() { ::ros::spin(); }
+
+void PlannerNode::tick() {
+  holdingOnError(core_, "the mission's tick", [&] {
+    const auto job = core_.with([&](MissionCore& core) {
+      const double now_s = missionTime(core, ::ros::Time::now());
+      core.mission.onRemaining(core.endurance.remaining(now_s));
+      startIfWanted(core, now_s);
+      if (const auto command = core.mission.tick(now_s)) publish(core, *command);
+      core.watch.checkSilence(now_s);
+      publishStatusIfChanged(core, now_s);
+      return core.mission.takeJob();
+    });
+    if (job) worker_.submit(*job);
+  });
+}
+
+void PlannerNode::takeOver(const mission::PlanOutcome& outcome) {
+  holdingOnError(core_, "taking over a plan", [&] {
+    core_.with([&](MissionCore& core) {
+      const double now_s = missionTime(core, ::ros::Time::now());
+      if (const auto command = core.mission.accept(outcome, now_s)) publish(core, *command);
+      publishStatusIfChanged(core, now_s);
+    });
+    if (!outputs_.wantsGraph() && !outputs_.wantsMarkers()) return;
+    const auto graph = std::make_shared<const planners::PlannerGraph>(
+        planner_.with([](auto& planner) { return planner->graph(); }));
+    shown_graph_.with([&](auto& shown) { shown = graph; });
+    outputs_.publishGraph(*graph, ::ros::Time::now());
+  });
+}
+
+void PlannerNode::startIfWanted(MissionCore& core, double now_s) {
+  if (!core.wants_start) return;
+  const mission::Answer answer = core.mission.start();
+  if (answer.accepted) {
+    core.wants_start = false;
+    core.endurance.start(now_s);
+  } else if (start_refusals_.allows(answer.reason, now_s)) {
+    log(LogLevel::kWarn, "not started yet: " + answer.reason);
+  }
+}
+
+void PlannerNode::publish(MissionCore& core, const mission::Command& command) {
+  core.kind = command.kind;
+  outputs_.publishCommand(command, core.clock, ::ros::Time::now());
+}
+
+void PlannerNode::publishStatusIfChanged(MissionCore& core, double now_s) {
+  const mission::MissionStatus status = core.mission.status();
+  const std::string problem = core.watch.current(now_s);
+  const std::string said =
+      std::string(mission::toText(status.state)) + status.reason + status.end_reason + problem;
+  if (said == last_said_) return;
+  last_said_ = said;
+  outputs_.publishStatus(status, problem, ::ros::Time::now());
+}
+
+void PlannerNode::publishStatus() {
+  core_.with([&](MissionCore& core) {
+    const ::ros::Time now = ::ros::Time::now();
+    outputs_.publishStatus(core.mission.status(), core.watch.current(core.clock.toMission(now)),
+                           now);
+  });
+}
+
+MissionView PlannerNode::viewOf(MissionCore& core) const {
+  MissionView view;
+  view.status = core.mission.status();
+  view.robot = core.robot.value_or(RobotState());
+  view.box_m = core.mission.robot().box_m;
+  view.active_path = core.mission.activePath();
+  view.kind = core.kind;
+  view.way_home = core.mission.wayHome();
+  view.trail = core.mission.trail();
+  view.bounds = core.mission.bounds();
+  view.zones = core.mission.zones();
+  view.remaining = core.mission.remaining();
+  view.map = core.mission.map().freeze();
+  return view;
+}
+
+void PlannerNode::publishViews() {
+  holdingOnError(core_, "drawing", [&] {
+    if (outputs_.wantsOctomap())
+      core_.with([&](MissionCore& core) {
+        outputs_.publishOctomap(core.mission.map(), ::ros::Time::now());
+      });
+    if (!outputs_.wantsMarkers() && !outputs_.wantsMapCloud()) return;
+    MissionView view = core_.with([&](MissionCore& core) { return viewOf(core); });
+    view.graph = shown_graph_.with([](const auto& shown) { return shown; });
+    outputs_.publishMarkers(view, ::ros::Time::now());
+    outputs_.publishMapCloud(*view.map, ::ros::Time::now());
+  });
+}
+
+}  // namespace spelunk::bridge

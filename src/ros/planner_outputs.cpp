@@ -1,0 +1,104 @@
+#include "spelunk/ros/planner_outputs.h"
+
+#ifdef SPELUNK_HAVE_OCTOMAP_MSGS
+#include <octomap_msgs/Octomap.h>
+#include <octomap_msgs/conversions.h>
+#endif
+#include <visualization_msgs/MarkerArray.h>
+
+#include "spelunk/ros/convert.h"
+#include "spelunk/visualization/draw.h"
+
+namespace spelunk::bridge {
+namespace {
+
+constexpr double kStatusTextHeight_m = 1.0;
+constexpr double kStatusTextAbove_m = 5.0;
+
+visualization::Scene sceneOf(const MissionView& view) {
+  visualization::Scene scene;
+  const AxisAlignedBox around_robot = boxAround(view.robot.pose.position, {40.0, 40.0, 10.0});
+  const AxisAlignedBox known = view.map ? view.map->knownBounds() : AxisAlignedBox();
+  const bool map_is_known = known.min.allFinite() && known.max.allFinite() && !known.isEmpty();
+  const AxisAlignedBox shown = map_is_known ? known : around_robot;
+  if (view.graph) visualization::drawGraph(*view.graph, scene);
+  visualization::drawTrail(view.trail, scene);
+  visualization::drawWayHome(view.way_home, scene);
+  visualization::drawActivePath(view.active_path, view.kind, scene);
+  visualization::drawBounds(view.bounds, shown, scene);
+  visualization::drawZones(view.zones, shown, scene);
+  visualization::drawRemaining(view.remaining, scene);
+  visualization::drawRobot(view.robot.pose, view.box_m, scene);
+  visualization::drawStatus(
+      view.status, view.robot.pose.position + Eigen::Vector3d(0.0, 0.0, kStatusTextAbove_m),
+      kStatusTextHeight_m, scene);
+  return scene;
+}
+
+}  // namespace
+
+PlannerOutputs::PlannerOutputs(::ros::NodeHandle& node, const std::string& world_frame)
+    : frame_(world_frame),
+      path_(node.advertise<nav_msgs::Path>("path", 1, /*latch=*/true)),
+      trajectory_(node.advertise<trajectory_msgs::MultiDOFJointTrajectory>("command/trajectory", 1)),
+      status_(node.advertise<PlannerStatus>("status", 10)),
+      graph_(node.advertise<Graph>("graph", 1)),
+      markers_(node.advertise<visualization_msgs::MarkerArray>("markers", 1)),
+      map_cloud_(node.advertise<sensor_msgs::PointCloud2>("map_cloud", 1)) {
+#ifdef SPELUNK_HAVE_OCTOMAP_MSGS
+  octomap_ = node.advertise<octomap_msgs::Octomap>("octomap", 1);
+#endif
+}
+
+void PlannerOutputs::publishCommand(const mission::Command& command, const MissionClock& clock,
+                                    const ::ros::Time& now) {
+  path_.publish(bridge::toMsg(command.path, frame_, now));
+  if (trajectory_.getNumSubscribers() == 0) return;
+  const ::ros::Time start =
+      command.trajectory.empty() ? now : clock.toRos(command.trajectory.front().time_s);
+  trajectory_.publish(bridge::toMsg(command.trajectory, frame_, start));
+}
+
+void PlannerOutputs::publishStatus(const mission::MissionStatus& status,
+                                   const std::string& input_problem, const ::ros::Time& now) {
+  if (status_.getNumSubscribers() == 0) return;
+  PlannerStatus message = bridge::toMsg(status, frame_, now);
+  message.input_problem = input_problem;
+  status_.publish(message);
+}
+
+void PlannerOutputs::publishGraph(const planners::PlannerGraph& graph, const ::ros::Time& now) {
+  if (wantsGraph()) graph_.publish(bridge::toMsg(graph, frame_, now));
+}
+
+void PlannerOutputs::publishMarkers(const MissionView& view, const ::ros::Time& now) {
+  if (wantsMarkers()) markers_.publish(marker_builder_.build(sceneOf(view), frame_, now));
+}
+
+void PlannerOutputs::publishMapCloud(const map::FrozenMap& map, const ::ros::Time& now) {
+  if (!wantsMapCloud()) return;
+  std::vector<Eigen::Vector3f> centres;
+  centres.reserve(map.occupiedVoxels());
+  if (map.occupiedVoxels() > 0)
+    map.forEachOccupied(map.knownBounds(), [&](const map::VoxelIndex& index) {
+      centres.push_back(map.centreOf(index).cast<float>());
+    });
+  map_cloud_.publish(bridge::toMsg(centres, frame_, now));
+}
+
+#ifdef SPELUNK_HAVE_OCTOMAP_MSGS
+bool PlannerOutputs::wantsOctomap() const { return octomap_.getNumSubscribers() > 0; }
+
+void PlannerOutputs::publishOctomap(map::OccupancyMap& map, const ::ros::Time& now) {
+  octomap_msgs::Octomap message;
+  message.header.frame_id = frame_;
+  message.header.stamp = now;
+  if (octomap_msgs::binaryMapToMsg(map.octree(), message)) octomap_.publish(message);
+}
+#else
+bool PlannerOutputs::wantsOctomap() const { return false; }
+
+void PlannerOutputs::publishOctomap(map::OccupancyMap& /*map*/, const ::ros::Time& /*now*/) {}
+#endif
+
+}  // namespace spelunk::bridge

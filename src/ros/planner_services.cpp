@@ -1,0 +1,205 @@
+#include "spelunk/ros/planner_services.h"
+
+#include <exception>
+#include <optional>
+#include <utility>
+
+#include "spelunk/navigation/point_to_point.h"
+#include "spelunk/ros/convert.h"
+
+namespace spelunk::bridge {
+namespace {
+
+constexpr const char* kNoOdometry =
+    "no good odometry has arrived yet: check the topic 'odometry' and the node's warnings";
+
+template <class Response>
+bool answer(const mission::Answer& given, Response& response, std::string Response::*text) {
+  response.success = given.accepted;
+  response.*text = given.reason;
+  return true;
+}
+
+bool answer(const mission::Answer& given, std_srvs::Trigger::Response& response) {
+  return answer(given, response, &std_srvs::Trigger::Response::message);
+}
+
+/// Runs what answers a call; an exception becomes success = false with its text.
+template <class Response, class F>
+bool answering(Response& response, std::string Response::*text, F&& callback) {
+  try {
+    std::forward<F>(callback)();
+  } catch (const std::exception& error) {
+    response.success = false;
+    response.*text = error.what();
+  }
+  return true;
+}
+
+}  // namespace
+
+PlannerServices::PlannerServices(const ::ros::NodeHandle& private_node,
+                                 const std::string& world_frame, std::uint64_t seed,
+                                 GuardedCore& core, GuardedPlanner& planner)
+    : world_frame_(world_frame),
+      rng_(seed),
+      core_(core),
+      planner_(planner),
+      node_(private_node),
+      spinner_(1, &queue_) {
+  node_.setCallbackQueue(&queue_);
+  using Self = PlannerServices;
+  servers_ = {node_.advertiseService("start", &Self::start, this),
+              node_.advertiseService("pause", &Self::pause, this),
+              node_.advertiseService("home", &Self::home, this),
+              node_.advertiseService("estop", &Self::emergencyStop, this),
+              node_.advertiseService("plan", &Self::plan, this),
+              node_.advertiseService("go_to", &Self::goTo, this),
+              node_.advertiseService("set_bounds", &Self::setBounds, this),
+              node_.advertiseService("set_no_go_zones", &Self::setZones, this),
+              node_.advertiseService("save", &Self::save, this),
+              node_.advertiseService("load", &Self::load, this)};
+  spinner_.start();
+}
+
+PlannerServices::~PlannerServices() { spinner_.stop(); }
+
+Rng PlannerServices::nextRng(const char* service) {
+  return rng_.fork(service + std::string("/") + std::to_string(calls_++));
+}
+
+bool PlannerServices::start(Trigger::Request& /*request*/, Trigger::Response& response) {
+  return answering(response, &Trigger::Response::message, [&] {
+    answer(core_.with([](MissionCore& core) {
+             const mission::Answer given = core.mission.start();
+             if (given.accepted) {
+               core.wants_start = false;
+               core.endurance.start(missionTime(core, ::ros::Time::now()));
+             }
+             return given;
+           }),
+           response);
+  });
+}
+
+bool PlannerServices::pause(Trigger::Request& /*request*/, Trigger::Response& response) {
+  return answering(response, &Trigger::Response::message, [&] {
+    answer(core_.with([](MissionCore& core) {
+             core.wants_start = false;
+             return core.mission.pause();
+           }),
+           response);
+  });
+}
+
+bool PlannerServices::home(Trigger::Request& /*request*/, Trigger::Response& response) {
+  return answering(response, &Trigger::Response::message, [&] {
+    answer(core_.with([](MissionCore& core) { return core.mission.home(); }), response);
+  });
+}
+
+bool PlannerServices::emergencyStop(Trigger::Request& /*request*/, Trigger::Response& response) {
+  return answering(response, &Trigger::Response::message, [&] {
+    answer(core_.with([](MissionCore& core) {
+             core.wants_start = false;
+             return core.mission.emergencyStop();
+           }),
+           response);
+  });
+}
+
+bool PlannerServices::plan(Plan::Request& /*request*/, Plan::Response& response) {
+  return answering(response, &Plan::Response::reason, [&] {
+    const auto request = core_.with([](MissionCore& core) {
+      return core.mission.requestHere(missionTime(core, ::ros::Time::now()));
+    });
+    if (!request) {
+      response.status = "no_odometry";
+      response.reason = kNoOdometry;
+      return;
+    }
+    planners::PlanRequest wanted = *request;
+    wanted.rng = nextRng("plan");
+    const auto result = planner_.with([&](auto& planner) { return planner->plan(wanted); });
+    response.success = result.status == planners::PlanStatus::kOk;
+    response.status = planners::toText(result.status);
+    response.reason = result.reason;
+    response.path = bridge::toMsg(result.path, world_frame_, ::ros::Time::now());
+  });
+}
+
+bool PlannerServices::goTo(GoTo::Request& request, GoTo::Response& response) {
+  return answering(response, &GoTo::Response::reason, [&] {
+    const auto here = core_.with([](MissionCore& core) {
+      return core.mission.requestHere(missionTime(core, ::ros::Time::now()));
+    });
+    if (!here) {
+      response.reason = kNoOdometry;
+      return;
+    }
+    navigation::PointToPointRequest wanted;
+    wanted.map = here->map;
+    wanted.start = here->pose;
+    wanted.goal.position = {request.target.x, request.target.y, request.target.z};
+    wanted.goal.yaw = here->pose.yaw;
+    if (!wanted.goal.position.allFinite()) {
+      response.reason = "the target holds a number that is not finite";
+      return;
+    }
+    wanted.box = core_.with([](MissionCore& core) { return core.mission.robot().box_m; });
+    wanted.bounds = here->bounds;
+    wanted.zones = here->zones;
+    wanted.rng = nextRng("go_to");
+    const auto found = navigation::planPointToPoint(wanted);
+    if (found.status != navigation::PointToPointStatus::kOk) {
+      response.reason = found.reason;
+      return;
+    }
+    const mission::Answer given =
+        core_.with([&](MissionCore& core) { return core.mission.goTo(found.path); });
+    response.success = given.accepted;
+    response.reason = given.reason;
+    if (given.accepted)
+      response.path = bridge::toMsg(found.path, world_frame_, ::ros::Time::now());
+  });
+}
+
+bool PlannerServices::setBounds(SetBounds::Request& request, SetBounds::Response& response) {
+  return answering(response, &SetBounds::Response::reason, [&] {
+    const auto bounds = boundsFromMsg(request.min, request.max);
+    response.reason = bounds.problem;
+    if (!bounds.value) return;
+    answer(core_.with([&](MissionCore& core) { return core.mission.setBounds(*bounds.value); }),
+           response, &SetBounds::Response::reason);
+  });
+}
+
+bool PlannerServices::setZones(SetNoGoZones::Request& request, SetNoGoZones::Response& response) {
+  return answering(response, &SetNoGoZones::Response::reason, [&] {
+    const auto zones = fromMsg(request);
+    response.reason = zones.problem;
+    if (!zones.value) return;
+    answer(core_.with([&](MissionCore& core) { return core.mission.setZones(*zones.value); }),
+           response, &SetNoGoZones::Response::reason);
+  });
+}
+
+bool PlannerServices::save(Save::Request& request, Save::Response& response) {
+  return answering(response, &Save::Response::reason, [&] {
+    const auto graph = planner_.with([](auto& planner) { return planner->graph(); });
+    answer(core_.with([&](MissionCore& core) { return core.mission.save(request.path, graph); }),
+           response, &Save::Response::reason);
+  });
+}
+
+bool PlannerServices::load(Load::Request& request, Load::Response& response) {
+  return answering(response, &Load::Response::reason, [&] {
+    planners::PlannerGraph graph;
+    const mission::Answer given =
+        core_.with([&](MissionCore& core) { return core.mission.load(request.path, &graph); });
+    if (given.accepted) planner_.with([&](auto& planner) { planner->restore(graph); });
+    answer(given, response, &Load::Response::reason);
+  });
+}
+
+}  // namespace spelunk::bridge

@@ -1,0 +1,166 @@
+#include "spelunk/ros/sim_node.h"
+
+#include <nav_msgs/Odometry.h>
+#include <ros/callback_queue.h>
+#include <rosgraph_msgs/Clock.h>
+#include <sensor_msgs/BatteryState.h>
+#include <sensor_msgs/PointCloud2.h>
+#include <std_msgs/UInt32.h>
+#include <tf2_eigen/tf2_eigen.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "spelunk/navigation/trajectory_timing.h"
+#include "spelunk/ros/convert.h"
+#include "spelunk/ros/mesh_marker.h"
+#include "spelunk/ros/pacer.h"
+
+namespace spelunk::bridge {
+namespace {
+
+constexpr double kBatteryPeriod_s = 0.5;
+constexpr double kVoltage_v = 14.8;
+
+geometry_msgs::TransformStamped transformMsg(const Eigen::Isometry3d& T_parent_child,
+                                             const std::string& parent, const std::string& child,
+                                             const ::ros::Time& stamp) {
+  geometry_msgs::TransformStamped message = tf2::eigenToTransform(T_parent_child);
+  message.header.frame_id = parent;
+  message.header.stamp = stamp;
+  message.child_frame_id = child;
+  return message;
+}
+
+}  // namespace
+
+SimNode::SimNode(const ::ros::NodeHandle& node, SimSetup setup)
+    : params_(setup.node),
+      robot_(setup.robot),
+      mesh_(meshMarker(setup.world, params_.world_frame)),
+      simulator_(setup.sim, setup.robot, setup.world, setup.start,
+                 static_cast<std::uint64_t>(params_.seed)),
+      node_(node),
+      clock_(node_.advertise<rosgraph_msgs::Clock>("/clock", 10)),
+      odometry_(node_.advertise<nav_msgs::Odometry>("odometry", 50)),
+      cloud_(node_.advertise<sensor_msgs::PointCloud2>("pointcloud", 5)),
+      battery_(node_.advertise<sensor_msgs::BatteryState>("battery", 5)),
+      collisions_(node_.advertise<std_msgs::UInt32>("collisions", 5, /*latch=*/true)),
+      mesh_publisher_(node_.advertise<visualization_msgs::Marker>(
+          "mesh", 1,
+          [this](const ::ros::SingleSubscriberPublisher& subscriber) { subscriber.publish(mesh_); })),
+      trajectory_subscriber_(
+          node_.subscribe("command/trajectory", 5, &SimNode::onTrajectory, this,
+                          ::ros::TransportHints().tcpNoDelay())),
+      path_subscriber_(node_.subscribe("path", 5, &SimNode::onPath, this)) {}
+
+void SimNode::run() {
+  Pacer pacer(params_.speed_factor);
+  const double step_s = 1.0 / params_.odometry_rate_hz;
+  for (std::int64_t number = 1; ::ros::ok(); ++number) {
+    const double time_s = static_cast<double>(number) * step_s;
+    const double pause_s = pacer.pause(time_s, ::ros::WallTime::now().toSec());
+    ::ros::getGlobalCallbackQueue()->callAvailable(::ros::WallDuration(pause_s));
+    const double left_s = pacer.pause(time_s, ::ros::WallTime::now().toSec());
+    if (left_s > 0.0) ::ros::WallDuration(left_s).sleep();
+    step(time_s);
+  }
+}
+
+void SimNode::step(double time_s) {
+  const auto scans = simulator_.advanceTo(time_s);
+  publishClock();
+  publishState();
+  publishScans(scans);
+  publishCollisions();
+  if (time_s < next_battery_s_) return;
+  next_battery_s_ = time_s + kBatteryPeriod_s;
+  publishBattery();
+}
+
+void SimNode::publishClock() {
+  rosgraph_msgs::Clock message;
+  message.clock = ::ros::Time(simulator_.time());
+  clock_.publish(message);
+}
+
+void SimNode::publishState() {
+  const RobotState state = simulator_.odometry();
+  const ::ros::Time stamp(simulator_.time());
+  Eigen::Isometry3d T_world_body = Eigen::Isometry3d::Identity();
+  T_world_body.linear() = state.orientation.toRotationMatrix();
+  T_world_body.translation() = state.pose.position;
+  std::vector<geometry_msgs::TransformStamped> transforms = {
+      transformMsg(T_world_body, params_.world_frame, params_.base_frame, stamp)};
+  for (const SensorModel& sensor : robot_.sensor_models)
+    transforms.push_back(
+        transformMsg(T_base_sensor(sensor), params_.base_frame, sensor.name, stamp));
+  broadcaster_.sendTransform(transforms);
+  if (odometry_.getNumSubscribers() > 0)
+    odometry_.publish(toMsg(state, params_.world_frame, params_.base_frame, stamp));
+}
+
+void SimNode::publishScans(const std::vector<sim::SimulatedScan>& scans) {
+  if (cloud_.getNumSubscribers() == 0) return;
+  for (const sim::SimulatedScan& scan : scans)
+    cloud_.publish(toMsg(scan.scan.points, scan.scan.sensor, ::ros::Time(scan.scan.stamp_s)));
+}
+
+void SimNode::publishBattery() {
+  if (battery_.getNumSubscribers() == 0) return;
+  const sim::BatteryState state = simulator_.battery();
+  sensor_msgs::BatteryState message;
+  message.header.stamp = ::ros::Time(simulator_.time());
+  message.present = true;
+  message.voltage = static_cast<float>(kVoltage_v);
+  message.charge = static_cast<float>(state.energy_wh / kVoltage_v);
+  const double capacity_ah = state.fraction > 0.0 ? state.energy_wh / state.fraction / kVoltage_v : 0.0;
+  message.capacity = static_cast<float>(capacity_ah);
+  message.design_capacity = message.capacity;
+  message.percentage = static_cast<float>(state.fraction);
+  // The mean current, so that charge over current is the time left.
+  const double mean_power_w =
+      state.remaining_s > 0.0 ? state.energy_wh * 3600.0 / state.remaining_s : state.power_w;
+  message.current = static_cast<float>(-mean_power_w / kVoltage_v);
+  message.power_supply_status = sensor_msgs::BatteryState::POWER_SUPPLY_STATUS_DISCHARGING;
+  battery_.publish(message);
+}
+
+void SimNode::publishCollisions() {
+  const int episodes = simulator_.collisions().episodes;
+  if (collisions_said_ == episodes) return;
+  collisions_said_ = episodes;
+  std_msgs::UInt32 message;
+  message.data = static_cast<std::uint32_t>(episodes);
+  collisions_.publish(message);
+  if (episodes > 0)
+    log(LogLevel::kWarn, "the robot touched the mesh (" + std::to_string(episodes) + " so far)");
+}
+
+void SimNode::refuse(const std::string& what, const std::string& problem) {
+  if (throttle_.allows(what, simulator_.time()))
+    log(LogLevel::kWarn, what + " refused, the robot holds: it " + problem);
+  simulator_.follow({});
+}
+
+void SimNode::onTrajectory(const trajectory_msgs::MultiDOFJointTrajectory::ConstPtr& message) {
+  obeys_trajectories_ = true;
+  auto trajectory = fromMsg(*message, params_.world_frame);
+  if (!trajectory.value) return refuse("command/trajectory", trajectory.problem);
+  simulator_.follow(std::move(*trajectory.value));
+}
+
+void SimNode::onPath(const nav_msgs::Path::ConstPtr& message) {
+  if (obeys_trajectories_) return;
+  const auto path = fromMsg(*message, params_.world_frame);
+  if (!path.value) return refuse("path", path.problem);
+  if (path.value->empty()) return simulator_.follow({});
+  const RobotState state = simulator_.odometry();
+  Path from_here = *path.value;
+  from_here.insert(from_here.begin(), state.pose);
+  simulator_.follow(navigation::timed(from_here, limitsOf(robot_),
+                                      {simulator_.time(), state.velocity, state.yaw_rate}));
+}
+
+}  // namespace spelunk::bridge
