@@ -1,7 +1,6 @@
 #include "spelunk/planners/gbplanner/credible_window.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdint>
 #include <cstring>
@@ -11,123 +10,218 @@
 namespace spelunk::planners::gbplanner {
 namespace {
 
-constexpr std::uint8_t kUnknown = 0;
-constexpr std::uint8_t kFree = 1;
-constexpr std::uint8_t kOccupied = 2;
-constexpr std::uint8_t kOpen = 3;  // unknown, and worth looking into
+using Word = std::uint64_t;
+constexpr int kBits = 64;
 
-/// The cells of a window while they are rewritten; x is the fastest axis.
-struct Cells {
-  std::vector<std::uint8_t> values;
-  int nx = 0;
-  int ny = 0;
-  int nz = 0;
-  std::ptrdiff_t row = 0;    // one step in y
-  std::ptrdiff_t layer = 0;  // one step in z
+/// One bit a voxel; a word holds 64 voxels on end in x. A layer is all words of one height, so that
+/// steps in z act on whole layers and steps in y on whole rows.
+class BitPlanes {
+ public:
+  BitPlanes(int words_in_row, int rows, int layers)
+      : words_in_row_(words_in_row),
+        rows_(rows),
+        layers_(layers),
+        words_(static_cast<std::size_t>(words_in_row) * static_cast<std::size_t>(rows) *
+               static_cast<std::size_t>(layers)) {}
 
-  [[nodiscard]] std::uint8_t* rowAt(int y, int z) { return values.data() + z * layer + y * row; }
-
-  /// Calls visit(x, cell) for every known cell of a row; empty stretches are skipped eight at once.
-  template <class Visit>
-  void forEachKnown(int y, int z, Visit&& visit) {
-    std::uint8_t* cells = rowAt(y, z);
-    for (int x = 0; x < nx;) {
-      std::uint64_t eight = 0;
-      if (x + 8 <= nx) {
-        std::memcpy(&eight, cells + x, sizeof eight);
-        if (eight == 0) {
-          x += 8;
-          continue;
-        }
-      }
-      for (const int end = std::min(x + 8, nx); x < end; ++x) {
-        if (cells[x] != kUnknown) visit(x, cells + x);
-      }
-    }
+  [[nodiscard]] int layers() const { return layers_; }
+  [[nodiscard]] int rows() const { return rows_; }
+  [[nodiscard]] int wordsInRow() const { return words_in_row_; }
+  [[nodiscard]] std::size_t layerSize() const {
+    return static_cast<std::size_t>(words_in_row_) * static_cast<std::size_t>(rows_);
   }
+  [[nodiscard]] Word* layer(int z) { return words_.data() + static_cast<std::size_t>(z) * layerSize(); }
+  [[nodiscard]] const Word* layer(int z) const {
+    return words_.data() + static_cast<std::size_t>(z) * layerSize();
+  }
+  [[nodiscard]] std::vector<Word>& words() { return words_; }
+  [[nodiscard]] const std::vector<Word>& words() const { return words_; }
+
+ private:
+  int words_in_row_;
+  int rows_;
+  int layers_;
+  std::vector<Word> words_;
 };
 
-void closeColumns(Cells& cells, int gap_max) {
-  std::vector<int> last(static_cast<std::size_t>(cells.nx));
-  for (int y = 0; y < cells.ny; ++y) {
-    std::fill(last.begin(), last.end(), -1);
-    for (int z = 0; z < cells.nz; ++z) {
-      cells.forEachKnown(y, z, [&](int x, std::uint8_t* cell) {
-        int& below = last[static_cast<std::size_t>(x)];
-        const int gap = z - below - 1;
-        if (below >= 0 && gap > 0 && gap <= gap_max) {
-          const bool solid = *cell == kOccupied && *(cell - (gap + 1) * cells.layer) == kOccupied;
-          for (int k = 1; k <= gap; ++k) *(cell - k * cells.layer) = solid ? kOccupied : kFree;
-        }
-        below = z;
-      });
+/// Bit i of the result is bit 0 of byte i.
+Word gather(Word bytes) { return ((bytes & 0x0101010101010101ULL) * 0x0102040810204080ULL) >> 56; }
+/// Byte i of the result is bit i.
+Word scatter(Word bits) {
+  const Word spread = (bits * 0x0101010101010101ULL) & 0x8040201008040201ULL;
+  return ((spread + 0x7F7F7F7F7F7F7F7FULL) >> 7) & 0x0101010101010101ULL;
+}
+
+struct Planes {
+  BitPlanes free;
+  BitPlanes occupied;
+};
+
+Planes planesOf(const map::LocalWindow& window) {
+  const int nx = window.size().x();
+  const int words = (nx + kBits - 1) / kBits;
+  Planes planes{{words, window.size().y(), window.size().z()},
+                {words, window.size().y(), window.size().z()}};
+  const std::uint8_t* cells = window.cells().data();
+  const std::size_t rows = window.cells().size() / static_cast<std::size_t>(nx);
+  for (std::size_t row = 0; row < rows; ++row, cells += nx) {
+    Word* free = planes.free.words().data() + row * static_cast<std::size_t>(words);
+    Word* occupied = planes.occupied.words().data() + row * static_cast<std::size_t>(words);
+    for (int x = 0; x < nx; x += 8) {
+      Word eight = 0;
+      std::memcpy(&eight, cells + x, static_cast<std::size_t>(std::min(8, nx - x)));
+      if (eight == 0) continue;
+      free[x / kBits] |= gather(eight) << (x % kBits);
+      occupied[x / kBits] |= gather(eight >> 1) << (x % kBits);
+    }
+  }
+  return planes;
+}
+
+/// The voxels of `planes` in gaps of columns of at most `gap` voxels: a closing by gap + 1 in z.
+BitPlanes closedColumns(const BitPlanes& known, int gap) {
+  const std::size_t size = known.layerSize();
+  BitPlanes near_below(known.wordsInRow(), known.rows(), known.layers() + gap);
+  for (int z = 0; z < near_below.layers(); ++z) {
+    Word* out = near_below.layer(z);
+    for (int k = std::max(0, z - known.layers() + 1); k <= std::min(gap, z); ++k) {
+      const Word* in = known.layer(z - k);
+      for (std::size_t i = 0; i < size; ++i) out[i] |= in[i];
+    }
+  }
+  BitPlanes closed(known.wordsInRow(), known.rows(), known.layers());
+  for (int z = 0; z < closed.layers(); ++z) {
+    Word* out = closed.layer(z);
+    std::fill(out, out + size, ~Word{0});
+    for (int k = 0; k <= gap; ++k) {
+      const Word* in = near_below.layer(z + k);
+      for (std::size_t i = 0; i < size; ++i) out[i] &= in[i];
+    }
+  }
+  return closed;
+}
+
+/// Step 1 of credibleWindow().
+void closeColumns(Planes& planes, int gap) {
+  if (gap <= 0) return;
+  BitPlanes filled(planes.free.wordsInRow(), planes.free.rows(), planes.free.layers());
+  for (std::size_t i = 0; i < filled.words().size(); ++i)
+    filled.words()[i] = planes.free.words()[i] | planes.occupied.words()[i];
+  const BitPlanes closed = closedColumns(filled, gap);
+  for (std::size_t i = 0; i < filled.words().size(); ++i)
+    filled.words()[i] = closed.words()[i] & ~filled.words()[i];
+  // Free space spreads up and down through the filled gaps; what it does not reach is solid.
+  const std::size_t size = filled.layerSize();
+  const auto spread = [&](int from, int to) {
+    const Word* in = planes.free.layer(from);
+    Word* out = planes.free.layer(to);
+    const Word* gaps = filled.layer(to);
+    for (std::size_t i = 0; i < size; ++i) out[i] |= in[i] & gaps[i];
+  };
+  for (int z = 1; z < filled.layers(); ++z) spread(z - 1, z);
+  for (int z = filled.layers() - 1; z > 0; --z) spread(z, z - 1);
+  for (std::size_t i = 0; i < filled.words().size(); ++i)
+    planes.occupied.words()[i] |= filled.words()[i] & ~planes.free.words()[i];
+}
+
+enum class Side { kLeft, kRight, kFront, kBack };  // the neighbour at -x, +x, +y, -y
+
+/// Adds to `out` every voxel that has a voxel of `in` (one layer) beside it: at that side of `in`.
+void addShifted(const Word* in, Word* out, const BitPlanes& shape, Side side) {
+  const std::ptrdiff_t row = shape.wordsInRow();
+  for (int y = 0; y < shape.rows(); ++y) {
+    for (std::ptrdiff_t w = 0; w < row; ++w) {
+      const std::ptrdiff_t at = y * row + w;
+      if (side == Side::kRight) out[at] |= (in[at] << 1) | (w > 0 ? in[at - 1] >> 63 : 0);
+      if (side == Side::kLeft) out[at] |= (in[at] >> 1) | (w + 1 < row ? in[at + 1] << 63 : 0);
+      if (side == Side::kFront && y > 0) out[at] |= in[at - row];
+      if (side == Side::kBack && y + 1 < shape.rows()) out[at] |= in[at + row];
     }
   }
 }
 
-/// Marks the unknown neighbours of free cells to one side where the free space ends so over at
-/// least `height` cells on end.
-void openSide(Cells& cells, int dx, int dy, int height) {
-  const std::ptrdiff_t side = dx + dy * cells.row;
-  std::vector<int> run(static_cast<std::size_t>(cells.nx));
-  std::vector<int> seen_at(static_cast<std::size_t>(cells.nx));
-  for (int y = std::max(0, -dy); y < cells.ny - std::max(0, dy); ++y) {
-    std::fill(seen_at.begin(), seen_at.end(), -2);
-    for (int z = 0; z < cells.nz; ++z) {
-      cells.forEachKnown(y, z, [&](int x, std::uint8_t* cell) {
-        if (x + dx < 0 || x + dx >= cells.nx || *cell != kFree) return;
-        const std::uint8_t beside = *(cell + side);
-        if (beside != kUnknown && beside != kOpen) return;
-        const auto i = static_cast<std::size_t>(x);
-        run[i] = seen_at[i] == z - 1 ? run[i] + 1 : 1;
-        seen_at[i] = z;
-        if (run[i] < height) return;
-        std::uint8_t* open = cell + side;
-        for (int k = 0; k < height; ++k) *(open - k * cells.layer) = kOpen;
-      });
+/// Unknown voxels to one side of free ones over at least `height` voxels on end in z.
+void addOpenings(const Planes& planes, int height, Side side, BitPlanes& openings) {
+  const std::size_t size = openings.layerSize();
+  const int layers = openings.layers();
+  BitPlanes beside(openings.wordsInRow(), openings.rows(), layers);
+  for (int z = 0; z < layers; ++z) {
+    Word* out = beside.layer(z);
+    addShifted(planes.free.layer(z), out, beside, side);
+    const Word* free = planes.free.layer(z);
+    const Word* occupied = planes.occupied.layer(z);
+    for (std::size_t i = 0; i < size; ++i) out[i] &= ~(free[i] | occupied[i]);
+  }
+  std::vector<Word> all(size);
+  for (int z = 0; z + height <= layers; ++z) {
+    std::fill(all.begin(), all.end(), ~Word{0});
+    for (int k = 0; k < height; ++k) {
+      const Word* in = beside.layer(z + k);
+      for (std::size_t i = 0; i < size; ++i) all[i] &= in[i];
+    }
+    for (int k = 0; k < height; ++k) {
+      Word* out = openings.layer(z + k);
+      for (std::size_t i = 0; i < size; ++i) out[i] |= all[i];
     }
   }
 }
 
-void sealTheRest(Cells& cells) {
-  for (int z = 0; z < cells.nz; ++z) {
-    for (int y = 0; y < cells.ny; ++y) {
-      cells.forEachKnown(y, z, [&](int x, std::uint8_t* cell) {
-        if (*cell != kFree) return;
-        const auto seal = [](std::uint8_t* neighbour) {
-          if (*neighbour == kUnknown) *neighbour = kOccupied;
-        };
-        if (x > 0) seal(cell - 1);
-        if (x + 1 < cells.nx) seal(cell + 1);
-        if (y > 0) seal(cell - cells.row);
-        if (y + 1 < cells.ny) seal(cell + cells.row);
-        if (z > 0) seal(cell - cells.layer);
-        if (z + 1 < cells.nz) seal(cell + cells.layer);
-      });
+/// Step 2 of credibleWindow().
+void sealAllBut(const BitPlanes& openings, Planes& planes) {
+  const std::size_t size = openings.layerSize();
+  const int layers = openings.layers();
+  std::vector<Word> near(size);
+  for (int z = 0; z < layers; ++z) {
+    std::fill(near.begin(), near.end(), 0);
+    for (const Side side : {Side::kLeft, Side::kRight, Side::kFront, Side::kBack})
+      addShifted(planes.free.layer(z), near.data(), openings, side);
+    const Word* below = z > 0 ? planes.free.layer(z - 1) : nullptr;
+    const Word* above = z + 1 < layers ? planes.free.layer(z + 1) : nullptr;
+    Word* occupied = planes.occupied.layer(z);
+    const Word* free = planes.free.layer(z);
+    const Word* open = openings.layer(z);
+    for (std::size_t i = 0; i < size; ++i) {
+      const Word beside = near[i] | (below != nullptr ? below[i] : 0) |
+                          (above != nullptr ? above[i] : 0);
+      occupied[i] |= beside & ~free[i] & ~open[i];
     }
   }
-  for (std::uint8_t& value : cells.values) value = value == kOpen ? kUnknown : value;
+}
+
+std::vector<std::uint8_t> cellsOf(const Planes& planes, const map::LocalWindow& window) {
+  std::vector<std::uint8_t> cells(window.cells().size());
+  const int nx = window.size().x();
+  const auto words = static_cast<std::size_t>(planes.free.wordsInRow());
+  const std::size_t rows = cells.size() / static_cast<std::size_t>(nx);
+  for (std::size_t row = 0; row < rows; ++row) {
+    const Word* free = planes.free.words().data() + row * words;
+    const Word* occupied = planes.occupied.words().data() + row * words;
+    std::uint8_t* out = cells.data() + row * static_cast<std::size_t>(nx);
+    for (int x = 0; x < nx; x += 8) {
+      const Word f = (free[x / kBits] >> (x % kBits)) & 0xFF;
+      const Word o = (occupied[x / kBits] >> (x % kBits)) & 0xFF;
+      if ((f | o) == 0) continue;
+      const Word eight = scatter(f) | (scatter(o) << 1);
+      std::memcpy(out + x, &eight, static_cast<std::size_t>(std::min(8, nx - x)));
+    }
+  }
+  return cells;
 }
 
 }  // namespace
 
 map::LocalWindow credibleWindow(const map::LocalWindow& window, const Credibility& credibility) {
-  Cells cells;
-  cells.values = window.cells();
-  cells.nx = window.size().x();
-  cells.ny = window.size().y();
-  cells.nz = window.size().z();
-  cells.row = cells.nx;
-  cells.layer = cells.row * cells.ny;
   const auto voxels = [&](double metres) {
     return static_cast<int>(std::lround(metres / window.resolution()));
   };
-  closeColumns(cells, voxels(credibility.closing_height_m));
+  Planes planes = planesOf(window);
+  closeColumns(planes, voxels(credibility.closing_height_m));
+  BitPlanes openings(planes.free.wordsInRow(), planes.free.rows(), planes.free.layers());
   const int height = std::max(1, voxels(credibility.opening_height_m));
-  for (const auto& [dx, dy] : std::array<std::pair<int, int>, 4>{{{1, 0}, {-1, 0}, {0, 1}, {0, -1}}})
-    openSide(cells, dx, dy, height);
-  sealTheRest(cells);
-  return window.withCells(std::move(cells.values));
+  for (const Side side : {Side::kLeft, Side::kRight, Side::kFront, Side::kBack})
+    addOpenings(planes, height, side, openings);
+  sealAllBut(openings, planes);
+  return window.withCells(cellsOf(planes, window));
 }
 
 }  // namespace spelunk::planners::gbplanner
