@@ -1,0 +1,98 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "spelunk/evaluation/explored_volume.h"
+#include "spelunk/mission/mission.h"
+#include "spelunk/planners/exploration_planner.h"
+#include "spelunk/sim/simulator.h"
+
+namespace spelunk::evaluation {
+
+/// One simulated second of a mission.
+struct TimelineRow {
+  double t_s = 0.0;
+  double explored_m3 = 0.0;
+  double distance_m = 0.0;  ///< True path length flown.
+  Pose pose;                ///< True.
+  double remaining_s = 0.0;
+  mission::MissionState state = mission::MissionState::kIdle;
+};
+
+/// One plan and what became of it at the mission's own check.
+struct PlanRow {
+  double t_s = 0.0;
+  bool explore = true;
+  planners::PlanResult result;  ///< Path left out.
+  double length_m = 0.0;
+  double wall_ms = 0.0;         ///< Plan and way home together.
+  std::string verdict;          ///< "accepted" or the mission's reason.
+};
+
+/// What a whole mission brought.
+struct RunRecord {
+  std::string outcome;          ///< Why it ended.
+  bool returned_home = false;
+  bool ended_as_it_may = false; ///< Home with endurance left and without a collision being its end.
+  double mission_time_s = 0.0;
+  double wall_time_s = 0.0;
+  double explored_volume_m3 = 0.0;
+  double path_length_m = 0.0;
+  int collisions = 0;
+  double collision_s = 0.0;
+  double min_clearance_m = 0.0; ///< Of the robot's body to the mesh.
+  double remaining_at_home_s = 0.0;
+  std::vector<TimelineRow> timeline;
+  std::vector<PlanRow> plans;
+  std::vector<double> map_update_ms;
+  std::vector<planners::RemainingTarget> remaining_targets;
+};
+
+/// What a progress line shows.
+struct Progress {
+  double t_s = 0.0;
+  double explored_m3 = 0.0;
+  double rate_m3ps = 0.0;  ///< Over the last ten seconds.
+  mission::MissionStatus status;
+};
+
+/// What a run is made of.
+struct RunSetup {
+  RobotModel robot;
+  sim::SimParams sim;
+  map::MapParams map;
+  mission::MissionParams mission;
+  Pose start;
+  AxisAlignedBox bounds;             ///< Of exploration.
+  std::vector<NoGoZone> zones;
+  std::uint64_t seed = 1;
+  double time_limit_s = 900.0;       ///< Endurance by time; the battery may say less.
+};
+
+/// A whole mission in lockstep: simulator, mission and planner advance by tenths of a second of
+/// simulated time, plans take no simulated time beyond the mission's own look-ahead. The same setup
+/// gives the same record, wall times aside.
+class MissionRun {
+ public:
+  /// Throws OutsideError if the start is in collision. `mesh` and `planner` must outlive the run.
+  MissionRun(const RunSetup& setup, const sim::WorldMesh& mesh,
+             planners::ExplorationPlanner& planner);
+  ~MissionRun();
+
+  /// Flies until the mission is done, out of endurance, or has held at one place for good. Calls
+  /// `show` about every simulated second if given.
+  [[nodiscard]] RunRecord fly(const std::function<void(const Progress&)>& show = {});
+
+  /// The mission, for its map and trail after the flight.
+  [[nodiscard]] mission::Mission& mission();
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace spelunk::evaluation

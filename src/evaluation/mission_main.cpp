@@ -1,0 +1,207 @@
+#include <unistd.h>
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <cstdlib>
+#include <iostream>
+#include <sstream>
+
+#include "spelunk/common/contract.h"
+#include "spelunk/common/log.h"
+#include "spelunk/common/pin_math.h"
+#include "spelunk/evaluation/mission_run.h"
+#include "spelunk/evaluation/reachable_volume.h"
+#include "spelunk/evaluation/run_report.h"
+#include "spelunk/mission/run_config.h"
+#include "spelunk/planners/factory.h"
+#include "spelunk/sim/simulator.h"
+#include "spelunk/sim/world_mesh.h"
+
+namespace {
+
+using namespace std::string_literals;
+using spelunk::OutsideError;
+
+constexpr int kExitStranded = 1;
+constexpr int kExitBadInput = 2;
+constexpr int kProgressPeriod_s = 10;
+
+struct Options {
+  std::string world = "long_wall";
+  std::string robot = "aerial";
+  std::string planner = "gbplanner";
+  std::uint64_t seed = 1;
+  double time_limit_s = 900.0;
+  std::string out = "mission_out";
+  std::string start;
+  std::vector<std::string> assignments;
+};
+
+/// Everything a flight needs, read and checked.
+struct Loaded {
+  spelunk::mission::RunConfig config;
+  spelunk::sim::SimParams sim;
+  std::unique_ptr<spelunk::planners::ExplorationPlanner> planner;
+  std::string share_dir;
+};
+
+std::string cacheDir() {
+  if (const char* given = std::getenv("SPELUNK_CACHE")) return given;
+  if (const char* cache = std::getenv("XDG_CACHE_HOME")) return cache + "/spelunk"s;
+  if (const char* home = std::getenv("HOME")) return home + "/.cache/spelunk"s;
+  return "/tmp/spelunk";
+}
+
+Loaded load(const Options& options) {
+  Loaded loaded;
+  loaded.share_dir = spelunk::mission::shareDir();
+  loaded.config = spelunk::mission::loadRunConfig(
+      {loaded.share_dir, options.robot, options.planner, options.assignments});
+  loaded.config.tree.read("sim", loaded.sim);
+  loaded.planner =
+      spelunk::planners::makePlanner(options.planner, loaded.config.tree, loaded.config.robot,
+                                     loaded.config.map.resolution_m);
+  loaded.config.tree.requireClean();
+  return loaded;
+}
+
+template <class Params>
+void printTable(const std::string& section, const Params& params) {
+  for (const auto& line : spelunk::describe(section, params))
+    std::printf("%-38s %-22s [%s, %s]  %s\n", line.name.c_str(), line.value.c_str(),
+                spelunk::toText(line.bounds.min).c_str(), spelunk::toText(line.bounds.max).c_str(),
+                line.text.c_str());
+}
+
+void listParams(const Options& options) {
+  const Loaded loaded = load(options);
+  printTable("robot", loaded.config.robot);
+  for (const auto& sensor : loaded.config.robot.sensor_models)
+    printTable("sensor." + sensor.name, sensor);
+  printTable("map", loaded.config.map);
+  printTable("mission", loaded.config.mission);
+  printTable("sim", loaded.sim);
+}
+
+spelunk::Pose poseFrom(const std::string& text) {
+  std::stringstream stream(text);
+  std::vector<double> values;
+  for (std::string item; std::getline(stream, item, ',');) {
+    char* end = nullptr;
+    values.push_back(std::strtod(item.c_str(), &end));
+    if (item.empty() || *end != '\0' || !std::isfinite(values.back()))
+      throw OutsideError("--start '" + text + "': write it as x,y,z,yaw in metres and radians");
+  }
+  if (values.size() != 4)
+    throw OutsideError("--start '" + text + "': write it as x,y,z,yaw in metres and radians");
+  return {{values[0], values[1], values[2]}, values[3]};
+}
+
+spelunk::Pose startOf(const Options& options, const spelunk::sim::WorldMesh& mesh) {
+  if (!options.start.empty()) return poseFrom(options.start);
+  if (mesh.start) return *mesh.start;
+  throw OutsideError("world '" + options.world +
+                     "' says no start: give --start x,y,z,yaw or a <name>.json beside the mesh");
+}
+
+/// Shows a line in place on a terminal, else one line every ten simulated seconds.
+void show(const spelunk::evaluation::Progress& progress) {
+  const bool terminal = isatty(STDOUT_FILENO) != 0;
+  const auto second = static_cast<long>(progress.t_s + 0.5);
+  if (!terminal && second % kProgressPeriod_s != 0) return;
+  const auto& status = progress.status;
+  std::printf("%s%6.0f s  %8.0f m3  %6.1f m3/s  %-10s  endurance %5.0f s  margin %5.0f s%s",
+              terminal ? "\r\x1b[K" : "", progress.t_s, progress.explored_m3, progress.rate_m3ps,
+              spelunk::mission::toText(status.state), status.remaining_s, status.margin_s,
+              terminal ? "" : "\n");
+  std::fflush(stdout);
+}
+
+void plot(const std::string& share_dir, const std::string& out) {
+  const std::string command =
+      "python3 '" + share_dir + "/scripts/plot_mission.py' '" + out + "' >/dev/null 2>&1";
+  if (std::system(command.c_str()) != 0)
+    spelunk::log(spelunk::LogLevel::kWarn,
+                 "no exploration.png: scripts/plot_mission.py failed (python3-matplotlib missing?)");
+}
+
+void sayResult(const spelunk::evaluation::RunRecord& record, double reachable_m3,
+               const std::string& out) {
+  std::printf("\n%s\nexplored %.0f m3 of %.0f m3 reachable on %.0f m in %.0f s "
+              "(%.1f s of wall time); collisions %d; %s\nwritten to %s\n",
+              record.outcome.c_str(), record.explored_volume_m3, reachable_m3,
+              record.path_length_m, record.mission_time_s, record.wall_time_s, record.collisions,
+              record.returned_home
+                  ? ("home with " + std::to_string(static_cast<int>(record.remaining_at_home_s)) +
+                     " s left").c_str()
+                  : "NOT home",
+              out.c_str());
+}
+
+int fly(const Options& options, bool quiet) {
+  Loaded loaded = load(options);
+  spelunk::evaluation::requireWritable(options.out);
+  const auto mesh =
+      spelunk::sim::openWorld(options.world, loaded.share_dir + "/worlds", cacheDir());
+  spelunk::evaluation::RunSetup setup;
+  setup.robot = loaded.config.robot;
+  setup.sim = loaded.sim;
+  setup.map = loaded.config.map;
+  setup.mission = loaded.config.mission;
+  setup.start = startOf(options, mesh);
+  setup.seed = options.seed;
+  setup.time_limit_s = options.time_limit_s;
+  spelunk::evaluation::MissionRun run(setup, mesh, *loaded.planner);
+  const auto record =
+      quiet ? run.fly() : run.fly([](const spelunk::evaluation::Progress& p) { show(p); });
+  const auto reachable = spelunk::evaluation::reachableVolume(mesh, setup.start.position);
+  spelunk::evaluation::writeReport(
+      options.out,
+      {options.planner, options.world, options.robot, options.seed, options.time_limit_s,
+       reachable.total_m3},
+      record);
+  run.mission().map().save(options.out + "/map.bt");
+  plot(loaded.share_dir, options.out);
+  if (!quiet) sayResult(record, reachable.total_m3, options.out);
+  return record.ended_as_it_may ? EXIT_SUCCESS : kExitStranded;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  spelunk::pinMathLibrary(argc, argv);
+  CLI::App app{"Flies one exploration mission in lockstep with the simulator, without ROS"};
+  Options options;
+  bool list_params = false;
+  bool quiet = false;
+  app.add_option("--world", options.world, "name from worlds/ or path of a mesh");
+  app.add_option("--robot", options.robot, "name from config/robots");
+  app.add_option("--planner", options.planner, "exploration planner");
+  app.add_option("--seed", options.seed, "seed of the whole run");
+  app.add_option("--time-limit-s", options.time_limit_s, "the robot is home before this time")
+      ->check(CLI::PositiveNumber);
+  app.add_option("--out", options.out, "folder for the results");
+  app.add_option("--start", options.start, "x,y,z,yaw; wins over the world's own");
+  app.add_option("--set", options.assignments, "section.name=value, any parameter")->take_all();
+  app.add_flag("--list-params", list_params, "print all parameters and leave");
+  app.add_flag("--quiet", quiet, "no progress line");
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    const int code = app.exit(error);
+    return code == 0 ? EXIT_SUCCESS : kExitBadInput;
+  }
+  spelunk::setLogSink([quiet](spelunk::LogLevel level, const std::string& text) {
+    if (!quiet || level != spelunk::LogLevel::kInfo) std::cerr << "\n" << text << std::flush;
+  });
+  try {
+    if (list_params) return listParams(options), EXIT_SUCCESS;
+    return fly(options, quiet);
+  } catch (const OutsideError& error) {
+    std::cerr << "mission: " << error.what() << '\n';
+    return kExitBadInput;
+  } catch (const std::exception& error) {
+    std::cerr << "mission: internal fault: " << error.what() << '\n';
+    return kExitStranded;
+  }
+}

@@ -1,0 +1,165 @@
+#include "spelunk/evaluation/run_report.h"
+
+#include <sys/resource.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "spelunk/common/contract.h"
+
+namespace spelunk::evaluation {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+std::string fixed(double value, int decimals = 3) {
+  char text[64];
+  std::snprintf(text, sizeof text, "%.*f", decimals, value);
+  if (std::string(text).find_first_not_of("-0.") == std::string::npos && text[0] == '-')
+    return std::string(text + 1);  // no "-0.000"
+  return text;
+}
+
+double rounded(double value) { return std::round(value * 1000.0) / 1000.0; }
+
+std::string quoted(const std::string& text) {
+  std::string out = "\"";
+  for (const char c : text) out += c == '"' ? std::string("\"\"") : std::string(1, c == '\n' ? ' ' : c);
+  return out + "\"";
+}
+
+void writeText(const std::string& path, const std::string& text) {
+  std::ofstream file(path, std::ios::binary);
+  file << text;
+  file.close();
+  if (!file) throw OutsideError("cannot write '" + path + "': check the folder's rights and space");
+}
+
+std::string timelineText(const std::vector<TimelineRow>& rows) {
+  std::string text = "t_s,explored_m3,distance_m,x_m,y_m,z_m,yaw_rad,remaining_s,state\n";
+  for (const TimelineRow& row : rows)
+    text += fixed(row.t_s) + "," + fixed(row.explored_m3) + "," + fixed(row.distance_m) + "," +
+            fixed(row.pose.position.x()) + "," + fixed(row.pose.position.y()) + "," +
+            fixed(row.pose.position.z()) + "," + fixed(row.pose.yaw) + "," +
+            fixed(row.remaining_s) + "," + mission::toText(row.state) + "\n";
+  return text;
+}
+
+std::string planLine(const PlanRow& row) {
+  const planners::PlanStats& s = row.result.stats;
+  std::string line = fixed(row.t_s) + "," + (row.explore ? "explore" : "home") + "," +
+                     planners::toText(row.result.status) + "," +
+                     planners::toText(row.result.kind) + "," + fixed(row.length_m) + "," +
+                     fixed(s.best_gain) + "," + fixed(s.gain_threshold);
+  for (const int count : {s.samples, s.rejected_occupied, s.rejected_unknown,
+                          s.rejected_out_of_bounds, s.rejected_no_go, s.rejected_too_steep,
+                          s.rejected_unconnected, s.vertices, s.edges, s.global_vertices,
+                          s.global_edges, s.frontiers})
+    line += "," + std::to_string(count);
+  for (const double ms : {s.window_ms, s.graph_ms, s.gain_ms, s.global_ms, s.improve_ms,
+                          s.total_ms, row.wall_ms})
+    line += "," + fixed(ms);
+  return line + "," + quoted(row.verdict) + "," + quoted(row.result.reason) + "\n";
+}
+
+std::string plansText(const std::vector<PlanRow>& rows) {
+  std::string text =
+      "t_s,asked,status,kind,length_m,best_gain,gain_threshold,samples,rejected_occupied,"
+      "rejected_unknown,rejected_out_of_bounds,rejected_no_go,rejected_too_steep,"
+      "rejected_unconnected,vertices,edges,global_vertices,global_edges,frontiers,window_ms,"
+      "graph_ms,gain_ms,global_ms,improve_ms,total_ms,wall_ms,verdict,reason\n";
+  for (const PlanRow& row : rows) text += planLine(row);
+  return text;
+}
+
+Json jsonOf(const Spread& spread) {
+  return {{"median", rounded(spread.median)},
+          {"p95", rounded(spread.p95)},
+          {"max", rounded(spread.max)}};
+}
+
+Json remainingOf(const std::vector<planners::RemainingTarget>& targets) {
+  Json list = Json::array();
+  for (const planners::RemainingTarget& target : targets)
+    list.push_back({{"x_m", rounded(target.position.x())},
+                    {"y_m", rounded(target.position.y())},
+                    {"z_m", rounded(target.position.z())},
+                    {"gain_m3", rounded(target.gain_m3)},
+                    {"why", target.why}});
+  return list;
+}
+
+std::vector<double> planTimes(const RunRecord& record) {
+  std::vector<double> times;
+  for (const PlanRow& row : record.plans) times.push_back(row.wall_ms);
+  return times;
+}
+
+std::string summaryText(const ReportHeader& header, const RunRecord& record) {
+  Json json{{"planner", header.planner},
+            {"world", header.world},
+            {"robot", header.robot},
+            {"seed", header.seed},
+            {"time_limit_s", rounded(header.time_limit_s)},
+            {"outcome", record.outcome},
+            {"mission_time_s", rounded(record.mission_time_s)},
+            {"wall_time_s", rounded(record.wall_time_s)},
+            {"explored_volume_m3", rounded(record.explored_volume_m3)},
+            {"reachable_volume_m3", rounded(header.reachable_volume_m3)},
+            {"path_length_m", rounded(record.path_length_m)},
+            {"collisions", record.collisions},
+            {"collision_s", rounded(record.collision_s)},
+            {"min_clearance_m", rounded(record.min_clearance_m)},
+            {"returned_home", record.returned_home},
+            {"remaining_at_home_s", rounded(record.remaining_at_home_s)},
+            {"falls", 0},
+            {"plans", record.plans.size()},
+            {"plan_time_ms", jsonOf(spreadOf(planTimes(record)))},
+            {"map_update_ms", jsonOf(spreadOf(record.map_update_ms))},
+            {"peak_memory_mb", rounded(peakMemoryMb())}};
+  json["remaining_targets"] = remainingOf(record.remaining_targets);
+  return json.dump(2) + "\n";
+}
+
+}  // namespace
+
+Spread spreadOf(std::vector<double> values) {
+  if (values.empty()) return {};
+  std::sort(values.begin(), values.end());
+  const auto at = [&values](double share) {
+    return values[static_cast<std::size_t>(
+        std::floor(share * static_cast<double>(values.size() - 1) + 0.5))];
+  };
+  return {at(0.5), at(0.95), values.back()};
+}
+
+void requireWritable(const std::string& folder) {
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  const std::string probe = folder + "/.write_test";
+  std::ofstream file(probe);
+  file << "x";
+  file.close();
+  if (!file)
+    throw OutsideError("output folder '" + folder +
+                       "' is not writable: choose another with --out or change its rights");
+  std::filesystem::remove(probe, error);
+}
+
+void writeReport(const std::string& folder, const ReportHeader& header, const RunRecord& record) {
+  writeText(folder + "/summary.json", summaryText(header, record));
+  writeText(folder + "/timeline.csv", timelineText(record.timeline));
+  writeText(folder + "/plans.csv", plansText(record.plans));
+}
+
+double peakMemoryMb() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return static_cast<double>(usage.ru_maxrss) / 1024.0;
+}
+
+}  // namespace spelunk::evaluation
