@@ -47,6 +47,11 @@ Answer Mission::emergencyStop() { return impl_->emergencyStop(); }
 Answer Mission::setBounds(const AxisAlignedBox& bounds) { return impl_->setBounds(bounds); }
 Answer Mission::setZones(std::vector<NoGoZone> zones) { return impl_->setZones(std::move(zones)); }
 
+Answer Mission::goTo(const Path& path) { return impl_->goTo(path); }
+std::optional<planners::PlanRequest> Mission::requestHere(double now_s) {
+  return impl_->requestHere(now_s);
+}
+
 std::optional<Command> Mission::tick(double now_s) { return impl_->tick(now_s); }
 
 std::optional<PlanJob> Mission::takeJob() {

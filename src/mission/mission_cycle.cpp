@@ -43,6 +43,7 @@ std::optional<Command> Mission::Impl::tick(double now_s) {
   checkAhead();
   checkEndurance();
   stepHome();
+  stepGoTo();
   askForPlan();
   return takeCommand();
 }
@@ -152,7 +153,7 @@ void Mission::Impl::checkAhead() {
 }
 
 void Mission::Impl::checkEndurance() {
-  if (goal != Goal::kExplore) return;
+  if (goal != Goal::kExplore && goal != Goal::kGoTo) return;
   if (guard.margin(way_home_s) < 0.0) goHome("home by endurance: the way home takes what is left");
 }
 

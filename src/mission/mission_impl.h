@@ -18,7 +18,7 @@
 namespace spelunk::mission {
 
 /// What the mission is about at the moment; the state says what it does for it.
-enum class Goal { kNone, kExplore, kHome };
+enum class Goal { kNone, kExplore, kHome, kGoTo };
 
 /// A plan that was handed out.
 struct RunningJob {
@@ -44,7 +44,7 @@ struct WayHome {
 };
 
 /// State and steps of the mission. Steps that belong together share a .cpp:
-/// mission_inputs, mission_cycle, mission_plans, mission_home.
+/// mission_inputs, mission_goto, mission_cycle, mission_plans, mission_home.
 struct Mission::Impl {
   Impl(const MissionParams& mission_params, const RobotModel& robot_model,
        const map::MapParams& map_params, std::uint64_t seed);
@@ -62,6 +62,14 @@ struct Mission::Impl {
   Answer setZones(std::vector<NoGoZone> list);
   [[nodiscard]] std::string startProblem();
   void takeUp(const MissionRecord& record);
+
+  void takeOff();
+
+  // --- Paths from outside (mission_goto.cpp).
+  Answer goTo(const Path& path);
+  [[nodiscard]] std::string goToProblem(const Path& path);
+  void stepGoTo();
+  [[nodiscard]] std::optional<planners::PlanRequest> requestHere(double now_s);
 
   // --- The cycle (mission_cycle.cpp).
   std::optional<Command> tick(double now_s);

@@ -90,12 +90,7 @@ std::string Mission::Impl::startProblem() {
   return "";
 }
 
-Answer Mission::Impl::start() {
-  const std::string problem = startProblem();
-  if (!problem.empty()) {
-    status.reason = problem;
-    return {false, problem};
-  }
+void Mission::Impl::takeOff() {
   const Pose pose = input.latest()->pose;
   if (!home_graph) {
     home_graph.emplace(pose, robot.box_m, map.params().resolution_m);
@@ -104,6 +99,15 @@ Answer Mission::Impl::start() {
     stamped_trail.push_back({input.latest()->stamp_s, pose});
   }
   if (!started_s) started_s = now;
+}
+
+Answer Mission::Impl::start() {
+  const std::string problem = startProblem();
+  if (!problem.empty()) {
+    status.reason = problem;
+    return {false, problem};
+  }
+  takeOff();
   goal = Goal::kExplore;
   failures = 0;
   next_ask_s = now;

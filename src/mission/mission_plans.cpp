@@ -40,6 +40,7 @@ bool Mission::Impl::wantsPlanInFlight() const {
 }
 
 bool Mission::Impl::wantsPlan() const {
+  if (goal == Goal::kGoTo) return false;
   if (!inputs_ok || pending || running || now < next_ask_s) return false;
   if (goal == Goal::kHome) return wants_way_home && (active || isAtRest());
   if (active) return wantsPlanInFlight();
