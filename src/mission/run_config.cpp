@@ -60,7 +60,7 @@ RunConfig loadRunConfig(const RunChoice& choice) {
     addIfPresent(config.tree, dir + "/" + name + ".yaml");
   addIfPresent(config.tree, dir + "/planners/" + choice.planner + ".yaml");
   for (const std::string& assignment : choice.assignments)
-    config.tree.setAssignment(assignment, "--set");
+    config.tree.setAssignment(assignment, choice.assignments_origin);
   config.robot = loadRobot(config.tree, choice.robot, dir);
   config.tree.read("map", config.map);
   config.tree.read("mission", config.mission);

@@ -4,8 +4,10 @@
 
 #include <cstdlib>
 #include <filesystem>
+#include <utility>
 
 #include "spelunk/common/contract.h"
+#include "spelunk/mission/run_config.h"
 #include "spelunk/planners/factory.h"
 #include "spelunk/ros/params.h"
 
@@ -13,13 +15,6 @@ namespace spelunk::bridge {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// Where config/ and worlds/ lie: the installed package, or the sources it was built from.
-std::string shareDir() {
-  for (const char* folder : {SPELUNK_SHARE_DIR, SPELUNK_SOURCE_DIR})
-    if (fs::is_directory(fs::path(folder) / "config")) return folder;
-  throw OutsideError("the folder 'config' of spelunk was not found: set ~config_dir");
-}
 
 std::string cacheDir() {
   const char* cache = std::getenv("XDG_CACHE_HOME");
@@ -30,103 +25,84 @@ std::string cacheDir() {
   return (base / "spelunk").string();
 }
 
-/// The files of a robot and planner, the private parameters of a node over them.
-ParamTree loadTree(const ::ros::NodeHandle& private_node, const std::string& config_dir,
-                   const std::string& robot) {
-  ParamTree tree;
-  tree.addYamlFile(config_dir + "/robots/" + robot + ".yaml");
-  for (const char* name : {"map", "mission", "sim"}) {
-    const std::string path = config_dir + "/" + name + ".yaml";
-    if (fs::exists(path)) tree.addYamlFile(path);
-  }
-  for (const std::string& planner : planners::plannerNames()) {
-    const std::string path = config_dir + "/planners/" + planner + ".yaml";
-    if (fs::exists(path)) tree.addYamlFile(path);
-  }
-  addPrivateParams(private_node, tree);
-  return tree;
-}
-
-/// What both nodes read, so that one set of overrides serves both and unknown names are found.
-struct Shared {
-  RobotModel robot;
-  map::MapParams map;
-  mission::MissionParams mission;
-  sim::SimParams sim;
-  CloudParams cloud;
-  std::unique_ptr<planners::ExplorationPlanner> planner;
-};
-
-Shared readShared(ParamTree& tree, const std::string& robot, const std::string& planner,
-                  const std::string& config_dir) {
-  Shared shared;
-  shared.robot = loadRobot(tree, robot, config_dir);
-  tree.read("map", shared.map);
-  tree.read("mission", shared.mission);
-  tree.read("sim", shared.sim);
-  tree.read("cloud", shared.cloud);
-  for (const std::string& problem : shared.cloud.problems()) tree.addProblem(problem);
-  for (const std::string& name : planners::plannerNames()) {
-    auto made = planners::makePlanner(name, tree, shared.robot, shared.map.resolution_m);
-    if (name == planner) shared.planner = std::move(made);
-  }
-  return shared;
-}
-
-/// The node's own parameters before anything else is read, to know which files to read.
+/// The node's own parameters before anything else is read, to know which files to read. Problems
+/// are reported when everything is read again.
 template <class Params>
-Params readNodeParams(const ::ros::NodeHandle& private_node) {
+Params readNodeParams(const PrivateParams& given) {
   ParamTree tree;
-  addPrivateParams(private_node, tree);
+  addTo(tree, given.own);
   Params params;
   tree.read("node", params);
-  if (params.config_dir.empty()) params.config_dir = shareDir() + "/config";
+  if (params.share_dir.empty()) params.share_dir = mission::shareDir();
   return params;
+}
+
+/// The configuration of a run with all that belongs to a node in its tree, read and checked.
+/// Both nodes read every section, so that one set of overrides serves both.
+template <class Params>
+mission::RunConfig loadConfig(const PrivateParams& given, const Params& params,
+                              const std::string& planner, sim::SimParams& sim,
+                              CloudParams& cloud) {
+  mission::RunChoice choice;
+  choice.share_dir = params.share_dir;
+  choice.robot = params.robot;
+  choice.planner = planner;
+  choice.assignments = given.assignments;
+  choice.assignments_origin = "~set";
+  mission::RunConfig config = mission::loadRunConfig(choice);
+  addTo(config.tree, given.own);
+  Params own;
+  config.tree.read("node", own);
+  config.tree.read("sim", sim);
+  config.tree.read("cloud", cloud);
+  for (const std::string& problem : cloud.problems()) config.tree.addProblem(problem);
+  return config;
 }
 
 Pose startOf(const SimNodeParams& params, const sim::WorldMesh& world) {
   if (params.start.empty()) {
     if (world.start) return *world.start;
-    throw OutsideError("world '" + params.world + "' has no start: give ~start as [x, y, z, yaw]");
+    throw OutsideError("world '" + params.world + "' has no start: give ~start as x, y, z, yaw");
   }
-  if (params.start.size() != 4) throw OutsideError("~start must be [x, y, z, yaw]");
-  const auto number = [&](std::size_t i) { return std::strtod(params.start[i].c_str(), nullptr); };
-  return {{number(0), number(1), number(2)}, number(3)};
+  std::vector<double> numbers;
+  for (const std::string& text : params.start) {
+    char* end = nullptr;
+    numbers.push_back(std::strtod(text.c_str(), &end));
+    if (text.empty() || *end != '\0') numbers.clear();
+  }
+  if (params.start.size() != 4 || numbers.size() != 4)
+    throw OutsideError("~start must be four numbers x, y, z, yaw");
+  return {{numbers[0], numbers[1], numbers[2]}, numbers[3]};
 }
 
 }  // namespace
 
 PlannerSetup loadPlannerSetup(const ::ros::NodeHandle& private_node) {
+  const PrivateParams given = readPrivateParams(private_node);
   PlannerSetup setup;
-  setup.node = readNodeParams<PlannerNodeParams>(private_node);
-  ParamTree tree = loadTree(private_node, setup.node.config_dir, setup.node.robot);
-  PlannerNodeParams checked;
-  tree.read("node", checked);
-  Shared shared = readShared(tree, setup.node.robot, setup.node.planner, setup.node.config_dir);
-  if (!shared.planner)  // Throws, naming the planners there are.
-    shared.planner = planners::makePlanner(setup.node.planner, tree, shared.robot,
-                                           shared.map.resolution_m);
-  tree.requireClean();
-  setup.cloud = shared.cloud;
-  setup.robot = shared.robot;
-  setup.mission = shared.mission;
-  setup.map = shared.map;
-  setup.planner = std::move(shared.planner);
+  setup.node = readNodeParams<PlannerNodeParams>(given);
+  sim::SimParams sim;
+  mission::RunConfig config = loadConfig(given, setup.node, setup.node.planner, sim, setup.cloud);
+  setup.planner = planners::makePlanner(config.planner, config.tree, config.robot,
+                                        config.map.resolution_m);
+  config.tree.requireClean();
+  setup.robot = config.robot;
+  setup.mission = config.mission;
+  setup.map = config.map;
   return setup;
 }
 
 SimSetup loadSimSetup(const ::ros::NodeHandle& private_node) {
+  const PrivateParams given = readPrivateParams(private_node);
   SimSetup setup;
-  setup.node = readNodeParams<SimNodeParams>(private_node);
-  if (setup.node.worlds_dir.empty()) setup.node.worlds_dir = shareDir() + "/worlds";
+  setup.node = readNodeParams<SimNodeParams>(given);
+  if (setup.node.worlds_dir.empty()) setup.node.worlds_dir = setup.node.share_dir + "/worlds";
   if (setup.node.cache_dir.empty()) setup.node.cache_dir = cacheDir();
-  ParamTree tree = loadTree(private_node, setup.node.config_dir, setup.node.robot);
-  SimNodeParams checked;
-  tree.read("node", checked);
-  const Shared shared = readShared(tree, setup.node.robot, "", setup.node.config_dir);
-  tree.requireClean();
-  setup.robot = shared.robot;
-  setup.sim = shared.sim;
+  CloudParams cloud;
+  mission::RunConfig config = loadConfig(given, setup.node, setup.node.planner, setup.sim, cloud);
+  (void)planners::makePlanner(config.planner, config.tree, config.robot, config.map.resolution_m);
+  config.tree.requireClean();
+  setup.robot = config.robot;
   setup.world = sim::openWorld(setup.node.world, setup.node.worlds_dir, setup.node.cache_dir);
   setup.start = startOf(setup.node, setup.world);
   return setup;

@@ -20,6 +20,7 @@ struct RunChoice {
   std::string robot = "aerial";          ///< config/robots/<robot>.yaml
   std::string planner = "gbplanner";     ///< config/planners/<planner>.yaml
   std::vector<std::string> assignments;  ///< "name=value", from the command line; they win.
+  std::string assignments_origin = "--set";  ///< Named in messages about them.
 };
 
 /// The configuration of a whole run. Whoever reads further sections (sim, the planner) does so from

@@ -10,14 +10,14 @@
 namespace spelunk::bridge {
 
 /// What planner_node itself needs (private parameters ~robot, ~planner, ...). Parameters of robot,
-/// map, mission and planner come from the files in `config_dir` and from ~set.
+/// map, mission and planner come from the files in `share_dir`/config and from ~set.
 struct PlannerNodeParams {
   std::string robot = "aerial";
   std::string planner = "gbplanner";
   int seed = 1;
   double time_limit_s = 900.0;
   bool auto_start = false;
-  std::string config_dir;
+  std::string share_dir;
   std::string world_frame = "world";
   double silence_s = 3.0;
   double tick_rate_hz = 10.0;
@@ -32,7 +32,7 @@ struct PlannerNodeParams {
           Audience::kUser);
     field("auto_start", auto_start, Bounds{}, "start as soon as cloud and odometry arrive",
           Audience::kUser);
-    field("config_dir", config_dir, Bounds{}, "where robots/, sensors/, ... lie; empty: the package's");
+    field("share_dir", share_dir, Bounds{}, "where config/ and worlds/ lie; empty: the package");
     field("world_frame", world_frame, Bounds{}, "fixed frame of map and paths", Audience::kUser);
     field("silence_s", silence_s, Bounds{0.2, 1000.0}, "warn if cloud or odometry stay away longer");
     field("tick_rate_hz", tick_rate_hz, Bounds{1.0, 100.0}, "of the mission");
@@ -44,10 +44,11 @@ struct PlannerNodeParams {
 struct SimNodeParams {
   std::string world = "long_wall";
   std::string robot = "aerial";
+  std::string planner = "gbplanner";
   int seed = 1;
   double speed_factor = 1.0;
   std::vector<std::string> start;
-  std::string config_dir;
+  std::string share_dir;
   std::string worlds_dir;
   std::string cache_dir;
   std::string world_frame = "world";
@@ -58,12 +59,13 @@ struct SimNodeParams {
   void visit(Visitor&& field) {
     field("world", world, Bounds{}, "a name of worlds/ or the path of a mesh", Audience::kUser);
     field("robot", robot, Bounds{}, "a file of config/robots", Audience::kUser);
+    field("planner", planner, Bounds{}, "whose parameters ~set may hold; not used otherwise");
     field("seed", seed, Bounds{0.0, 2e9}, "of noise, drop-outs, dust", Audience::kUser);
     field("speed_factor", speed_factor, Bounds{0.01, 1000.0}, "simulated seconds a real second",
           Audience::kUser);
     field("start", start, Bounds{}, "x, y, z, yaw; empty: the world's own", Audience::kUser);
-    field("config_dir", config_dir, Bounds{}, "where robots/, sensors/, ... lie; empty: the package's");
-    field("worlds_dir", worlds_dir, Bounds{}, "where worlds lie; empty: the package's");
+    field("share_dir", share_dir, Bounds{}, "where config/ and worlds/ lie; empty: the package");
+    field("worlds_dir", worlds_dir, Bounds{}, "where worlds lie; empty: share_dir/worlds");
     field("cache_dir", cache_dir, Bounds{}, "for generated meshes; empty: ~/.cache/spelunk");
     field("world_frame", world_frame, Bounds{}, "fixed frame");
     field("base_frame", base_frame, Bounds{}, "frame of the robot's body");

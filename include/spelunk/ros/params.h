@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "spelunk/common/params.h"
 
@@ -14,16 +15,29 @@ class NodeHandle;
 /// What joins spelunk to ROS. (A namespace spelunk::ros would hide ::ros from every file here.)
 namespace spelunk::bridge {
 
-/// Adds a value of the parameter server under `name`; structs are flattened to dotted names, flat
-/// lists become "[a, b]". Values that no parameter can have (nested lists, binary) become
-/// problems of the tree. `origin` is named in messages.
-void addXmlRpc(const std::string& name, const XmlRpc::XmlRpcValue& value,
-               const std::string& origin, ParamTree& tree);
+/// One value of the parameter server as text.
+struct FlatParam {
+  std::string name;     ///< Dotted below the value that was flattened: "map.resolution_m".
+  std::string text;     ///< Flat lists as "[a, b]".
+  std::string origin;   ///< Where it came from, for messages.
+  std::string problem;  ///< Not empty: no parameter can be like that (nested list, binary).
+};
 
-/// The private parameters of a node: ~x becomes "node.x", but what lies in ~set becomes a
-/// parameter of the run, as --set gives it to the mission executable (~set/map/resolution_m is
-/// "map.resolution_m"; a name without section is resolved when it is read), and what lies in
-/// ~cloud keeps its section.
-void addPrivateParams(const ros::NodeHandle& private_node, ParamTree& tree);
+/// A value with all that lies below it, in the order of names.
+[[nodiscard]] std::vector<FlatParam> flattened(const std::string& name,
+                                               const XmlRpc::XmlRpcValue& value,
+                                               const std::string& origin);
+
+/// The private parameters of a node.
+struct PrivateParams {
+  std::vector<std::string> assignments;  ///< What lies in ~set, as --set of the mission executable
+                                         ///< has it: ~set/map/resolution_m is "map.resolution_m=".
+  std::vector<FlatParam> own;            ///< ~x as "node.x"; ~cloud/x as "cloud.x".
+};
+
+[[nodiscard]] PrivateParams readPrivateParams(const ros::NodeHandle& private_node);
+
+/// Adds parameters to a tree, those that cannot be one as problems.
+void addTo(ParamTree& tree, const std::vector<FlatParam>& params);
 
 }  // namespace spelunk::bridge
