@@ -24,9 +24,8 @@ BitGrid::BitGrid(const LocalWindow& window, Occupancy status)
     : size_(window.size()), row_words_((static_cast<std::size_t>(size_.x()) + 63) / 64) {
   static_assert(static_cast<int>(Occupancy::kFree) == 1 &&
                 static_cast<int>(Occupancy::kOccupied) == 2);
-  words_.assign(row_words_ * static_cast<std::size_t>(size_.y()) *
-                    static_cast<std::size_t>(size_.z()),
-                0);
+  words_.assign(
+      row_words_ * static_cast<std::size_t>(size_.y()) * static_cast<std::size_t>(size_.z()), 0);
   const int status_bit = status == Occupancy::kFree ? 0 : 1;
   const auto length = static_cast<std::size_t>(size_.x());
   const std::uint8_t* cells = window.cells().data();

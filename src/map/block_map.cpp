@@ -87,8 +87,7 @@ void BlockMap::setVoxel(VoxelBlock& block, std::size_t z, int bit, float value) 
   block.tree_stale[z] |= one;
 }
 
-void BlockMap::enterPlane(VoxelBlock& block, std::size_t z, std::uint64_t free,
-                          std::uint64_t hit) {
+void BlockMap::enterPlane(VoxelBlock& block, std::size_t z, std::uint64_t free, std::uint64_t hit) {
   const float* values = block.log_odds.data() + z * 64;
   forEachBit(free & ~block.at_min[z],
              [&](int bit) { setVoxel(block, z, bit, values[bit] + log_odds_.miss); });

@@ -3,8 +3,8 @@
 #include <memory>
 #include <vector>
 
-#include "spelunk/map/occupancy_map.h"
 #include "scan_marks.h"
+#include "spelunk/map/occupancy_map.h"
 #include "voxel_key.h"
 
 namespace spelunk::map {

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <limits>
-#include <tuple>
 
 #include "frozen_blocks.h"
 #include "spelunk/common/contract.h"
@@ -50,21 +49,6 @@ class ChunkWriter {
   std::vector<StatusChunk*> writable_;
   std::shared_ptr<KeyTable> table_;
 };
-
-/// Indices of the voxels whose centres lie in a closed interval.
-struct Range {
-  int first;
-  int last;
-};
-
-Range centresIn(double min, double max, double resolution, int known_min, int known_max) {
-  const double first = std::ceil(min / resolution - 0.5);
-  const double last = std::floor(max / resolution - 0.5);
-  return {first > known_min ? (first > known_max ? known_max + 1 : static_cast<int>(first))
-                            : known_min,
-          last < known_max ? (last < known_min ? known_min - 1 : static_cast<int>(last))
-                           : known_max};
-}
 
 }  // namespace
 
@@ -129,9 +113,9 @@ void FrozenMap::forEachOccupied(const AxisAlignedBox& region,
   VoxelIndex first;
   VoxelIndex last;
   for (int axis = 0; axis < 3; ++axis) {
-    const Range range = centresIn(region.min(axis), region.max(axis), resolution_m_,
-                                  known.min(axis), known.max(axis));
-    if (!(range.first <= range.last)) return;
+    const IndexRange range = centresIn(region.min(axis), region.max(axis), resolution_m_,
+                                       {known.min(axis), known.max(axis)});
+    if (range.first > range.last) return;
     first(axis) = range.first;
     last(axis) = range.last;
   }

@@ -35,8 +35,8 @@ class BlockCopier {
       const std::uint64_t occupied = block.occupied[static_cast<std::size_t>(z)];
       if (known == 0) continue;
       for (int y = first.y(); y < end.y(); ++y) {
-        const std::uint64_t row = kSpread[(known >> (8 * y)) & 0xFF] +
-                                  kSpread[(occupied >> (8 * y)) & 0xFF];
+        const std::uint64_t row =
+            kSpread[(known >> (8 * y)) & 0xFF] + kSpread[(occupied >> (8 * y)) & 0xFF];
         std::uint8_t bytes[kBlockSide];
         std::memcpy(bytes, &row, sizeof(bytes));
         std::uint8_t* cells = cells_ + offsetOf(at.x() + first.x(), at.y() + y, at.z() + z);
@@ -79,7 +79,7 @@ LocalWindow::LocalWindow(const FrozenMap& map, const AxisAlignedBox& region)
   require(!region.isEmpty(), "LocalWindow: region is empty");
   origin_ = map.indexOf(region.min);
   const VoxelIndex last = map.indexOf(region.max);
-  const Eigen::Vector3d size = (last - origin_).cast<double>().array() + 1.0;
+  const Eigen::Vector3d size = last.cast<double>().array() - origin_.cast<double>().array() + 1.0;
   require(size.prod() < 2147483648.0, "LocalWindow: region has more than 2^31 voxels");
   size_ = last - origin_ + VoxelIndex::Ones();
   cells_.resize(static_cast<std::size_t>(size.prod()));
@@ -96,8 +96,7 @@ Eigen::Vector3d LocalWindow::centreOf(const VoxelIndex& index) const {
 }
 
 AxisAlignedBox LocalWindow::region() const {
-  return {origin_.cast<double>() * resolution_m_,
-          (origin_ + size_).cast<double>() * resolution_m_};
+  return {origin_.cast<double>() * resolution_m_, (origin_ + size_).cast<double>() * resolution_m_};
 }
 
 }  // namespace spelunk::map

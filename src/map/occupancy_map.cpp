@@ -24,8 +24,7 @@ bool isKeyable(const Eigen::Vector3f& point, double inverse_resolution) {
 }  // namespace
 
 struct OccupancyMap::Impl {
-  explicit Impl(const MapParams& map_params)
-      : params(map_params), blocks(LogOdds(map_params)) {}
+  explicit Impl(const MapParams& map_params) : params(map_params), blocks(LogOdds(map_params)) {}
 
   [[nodiscard]] std::vector<Eigen::Vector3f> usablePoints(const Scan& scan,
                                                           const AxisAlignedBox& robot_body,
@@ -103,9 +102,11 @@ MapUpdate OccupancyMap::insert(const Scan& scan, const AxisAlignedBox& robot_bod
   if (!isKeyable(origin, 1.0 / impl_->params.resolution_m)) {
     update.dropped_far += static_cast<int>(points.size());
     points.clear();
-  } 
-  if (points.empty()) impl_->marks.clear();
-  else impl_->markScan(origin, points);
+  }
+  if (points.empty())
+    impl_->marks.clear();
+  else
+    impl_->markScan(origin, points);
   impl_->blocks.apply(impl_->marks, impl_->params.resolution_m, update);
   return update;
 }

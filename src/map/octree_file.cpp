@@ -16,6 +16,8 @@
 namespace spelunk::map {
 namespace {
 
+constexpr const char* kFullHeader = "# Octomap OcTree file";
+constexpr const char* kLikelyHeader = "# Octomap OcTree binary file";
 constexpr int kTreeDepth = 16;
 constexpr std::uint64_t kMaxVoxels = std::uint64_t{1} << 30;
 
@@ -98,9 +100,9 @@ class Reader {
 void Reader::readHeader(double resolution_m) {
   std::string line;
   std::getline(in_, line);
-  if (line.rfind("# Octomap OcTree binary file", 0) == 0)
+  if (line.rfind(kLikelyHeader, 0) == 0)
     format_ = OctreeFormat::kMaximumLikelihood;
-  else if (line.rfind("# Octomap OcTree file", 0) != 0)
+  else if (line.rfind(kFullHeader, 0) != 0)
     fail("is not an octree: it does not begin as .bt and .ot files do");
   std::string type;
   double resolution = 0.0;
@@ -178,10 +180,13 @@ OctreeFormat octreeFormatOf(const std::string& path) {
 void writeOctree(const octomap::OcTree& tree, OctreeFormat format, const std::string& path) {
   std::ostringstream out;
   out.imbue(std::locale::classic());
-  if (format == OctreeFormat::kFull)
-    tree.write(out);
+  const bool is_full = format == OctreeFormat::kFull;
+  out << (is_full ? kFullHeader : kLikelyHeader) << "\n# written by spelunk\nid OcTree\nsize "
+      << tree.size() << "\nres " << tree.getResolution() << "\ndata\n";
+  if (is_full)
+    tree.writeData(out);
   else
-    tree.writeBinaryConst(out);
+    tree.writeBinaryData(out);
   replaceFile(path, out.str());
 }
 

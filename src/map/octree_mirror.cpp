@@ -69,7 +69,7 @@ void OcTreeMirror::updateMaximumLikelihood(const VoxelBlock& block) {
   std::array<float, kBlockVoxels> values;
   for (std::size_t i = 0; i < values.size(); ++i)
     values[i] = ((block.occupied[i >> 6] >> (i & 63)) & 1) != 0 ? getClampingThresMaxLog()
-                                                                 : getClampingThresMinLog();
+                                                                : getClampingThresMinLog();
   enter({block, values, block.known});
 }
 
@@ -140,9 +140,9 @@ void OcTreeMirror::collapse(octomap::OcTreeNode* node, float value) {
   if (nodeHasChildren(node)) {
     // Only pruneNode can free the array of children, and it wants eight equal ones.
     for (unsigned child = 0; child < 8; ++child)
-      collapse(nodeChildExists(node, child) ? getNodeChild(node, child)
-                                            : createNodeChild(node, child),
-               value);
+      collapse(
+          nodeChildExists(node, child) ? getNodeChild(node, child) : createNodeChild(node, child),
+          value);
     pruneNode(node);
   }
   node->setLogOdds(value);

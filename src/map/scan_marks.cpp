@@ -78,8 +78,7 @@ void ScanTracer::trace(const Eigen::Vector3f& end, ScanMarks& marks) const {
     marks.markHit(keyOf(end));
     return;
   }
-  const octomap::point3d cut =
-      from + difference.normalized() * static_cast<float>(range_max_m_);
+  const octomap::point3d cut = from + difference.normalized() * static_cast<float>(range_max_m_);
   markFree({cut.x(), cut.y(), cut.z()}, marks);
 }
 

@@ -97,8 +97,8 @@ void TemplateRays::addRay(const Eigen::Vector3d& direction, double range_voxels)
   for (std::size_t i = 0; i < 3; ++i) {
     const double component = rounded(direction(static_cast<int>(i)));
     sign[i] = component < 0.0 ? -1 : 1;
-    spacing[i] = component == 0.0 ? std::numeric_limits<double>::infinity()
-                                  : 1.0 / std::fabs(component);
+    spacing[i] =
+        component == 0.0 ? std::numeric_limits<double>::infinity() : 1.0 / std::fabs(component);
     next[i] = 0.5 * spacing[i];
   }
   Step step{};

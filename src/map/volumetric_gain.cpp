@@ -6,6 +6,7 @@
 
 #include "spelunk/common/contract.h"
 #include "template_rays.h"
+#include "voxel_key.h"
 
 namespace spelunk::map {
 namespace {
@@ -35,14 +36,11 @@ Reachable reachableFrom(const VoxelIndex& start, const LocalWindow& window,
                         const AxisAlignedBox& bounds) {
   Reachable reachable;
   for (int i = 0; i < 3; ++i) {
-    const double low = std::ceil(bounds.min(i) / window.resolution() - 0.5);
-    const double high = std::floor(bounds.max(i) / window.resolution() - 0.5);
-    const double window_low = window.origin()(i);
-    const double window_high = window_low + window.size()(i) - 1;
-    reachable.first(i) =
-        static_cast<int>(std::min(std::max(low, window_low), window_high + 1)) - start(i);
-    reachable.last(i) =
-        static_cast<int>(std::max(std::min(high, window_high), window_low - 1)) - start(i);
+    const int first = window.origin()(i);
+    const IndexRange range = centresIn(bounds.min(i), bounds.max(i), window.resolution(),
+                                       {first, first + window.size()(i) - 1});
+    reachable.first(i) = range.first - start(i);
+    reachable.last(i) = range.last - start(i);
   }
   return reachable;
 }
@@ -158,9 +156,8 @@ void GainEvaluator::Impl::countSensor(std::size_t sensor, const LocalWindow& win
     const TemplateRays::Step* end = rays.steps().data() + ray.end;
     // A ray leaves a box once: all of it is inside, or all from some step on is outside.
     if (!reachable.contains(end[-1]))
-      end = std::partition_point(begin, end, [&](const TemplateRays::Step& step) {
-        return reachable.contains(step);
-      });
+      end = std::partition_point(
+          begin, end, [&](const TemplateRays::Step& step) { return reachable.contains(step); });
     const std::int32_t* cells = offsets.sensors[sensor].data() + ray.begin;
     const auto count = static_cast<std::size_t>(end - begin);
     if (seen == nullptr)

@@ -1,6 +1,22 @@
 #include "voxel_key.h"
 
+#include <algorithm>
+
 namespace spelunk::map {
+
+IndexRange centresIn(double min, double max, double resolution, IndexRange limits) {
+  if (limits.first > limits.last) return {0, -1};
+  const auto centre = [resolution](int index) { return (index + 0.5) * resolution; };
+  const auto limited = [limits](double index) {
+    return static_cast<int>(std::min(limits.last + 1.0, std::max(limits.first - 1.0, index)));
+  };
+  // Division rounds: the guess is off by one at most where a centre lies on the interval's end.
+  int first = limited(std::floor(min / resolution - 0.5));
+  while (first <= limits.last && (first < limits.first || centre(first) < min)) ++first;
+  int last = limited(std::ceil(max / resolution - 0.5));
+  while (last >= limits.first && (last > limits.last || centre(last) > max)) --last;
+  return {first, last};
+}
 
 Extent extentOf(const Mask& mask) {
   std::uint64_t plane = 0;

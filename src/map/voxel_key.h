@@ -17,8 +17,8 @@ inline constexpr int kKeyFieldBits = 21;
 inline constexpr int kBlockSide = 8;
 inline constexpr int kBlockVoxels = kBlockSide * kBlockSide * kBlockSide;
 inline constexpr PackedKey kFieldOnes = 1 | PackedKey{1} << 21 | PackedKey{1} << 42;
-inline constexpr PackedKey kInBlockMask = 7 * kFieldOnes;    ///< Low three bits of each axis.
-inline constexpr PackedKey kInChunkMask = 31 * kFieldOnes;   ///< Four blocks on each axis.
+inline constexpr PackedKey kInBlockMask = 7 * kFieldOnes;   ///< Low three bits of each axis.
+inline constexpr PackedKey kInChunkMask = 31 * kFieldOnes;  ///< Four blocks on each axis.
 
 inline PackedKey packKey(int x, int y, int z) {
   return static_cast<PackedKey>(x) | static_cast<PackedKey>(y) << kKeyFieldBits |
@@ -62,6 +62,16 @@ inline VoxelIndex voxelOf(const Eigen::Vector3d& point, double inverse_resolutio
   return {voxelOf(point.x(), inverse_resolution), voxelOf(point.y(), inverse_resolution),
           voxelOf(point.z(), inverse_resolution)};
 }
+
+/// Indices first..last; empty if last < first.
+struct IndexRange {
+  int first;
+  int last;
+};
+
+/// The indices of `limits` whose voxel centres lie in the closed interval [min, max], which may be
+/// infinite.
+IndexRange centresIn(double min, double max, double resolution, IndexRange limits);
 
 /// One bit a voxel of a block.
 using Mask = std::array<std::uint64_t, kBlockSide>;

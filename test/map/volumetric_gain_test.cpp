@@ -1,0 +1,218 @@
+#include "spelunk/map/volumetric_gain.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <set>
+#include <tuple>
+
+#include "map/template_rays.h"
+#include "map_worlds.h"
+#include "spelunk/common/contract.h"
+
+namespace spelunk::map {
+namespace {
+
+SensorModel sensorOf(double horizontal_deg, double vertical_deg, double range_m) {
+  SensorModel sensor;
+  sensor.fov_horizontal_deg = horizontal_deg;
+  sensor.fov_vertical_deg = vertical_deg;
+  sensor.gain_range_m = range_m;
+  return sensor;
+}
+
+AxisAlignedBox cube(double half_m) {
+  return {Eigen::Vector3d::Constant(-half_m), Eigen::Vector3d::Constant(half_m)};
+}
+
+/// The same voxel lists looked up one by one in the OcTree.
+VolumetricGain plainGain(const octomap::OcTree& tree, const LocalWindow& window,
+                         const std::vector<SensorModel>& sensors, const Eigen::Vector3d& position,
+                         double yaw, const AxisAlignedBox& bounds, GainCounting counting) {
+  VolumetricGain gain;
+  std::set<std::tuple<int, int, int>> seen;
+  for (const SensorModel& sensor : sensors) {
+    const TemplateRays rays(sensor, window.resolution());
+    const Eigen::Vector3d origin =
+        position + Eigen::AngleAxisd(yaw, Eigen::Vector3d::UnitZ()) * sensor.mount_m;
+    const VoxelIndex start = window.indexOf(origin);
+    const auto counts = [&](const VoxelIndex& at) {
+      const VoxelIndex local = at - window.origin();
+      return (local.array() >= 0).all() && (local.array() < window.size().array()).all() &&
+             bounds.contains(window.centreOf(at));
+    };
+    const TemplateRays::Heading heading = rays.headingAt(yaw);
+    for (std::size_t i = 0; i < heading.count && counts(start); ++i) {
+      const auto& ray = rays.rays()[(heading.first + i) % rays.rays().size()];
+      for (std::uint32_t k = ray.begin; k < ray.end; ++k) {
+        const auto& step = rays.steps()[k];
+        const VoxelIndex at = start + VoxelIndex(step[0], step[1], step[2]);
+        if (!counts(at)) break;
+        const Occupancy status = statusIn(tree, at);
+        const bool is_new =
+            counting == GainCounting::kPerRay || seen.insert({at.x(), at.y(), at.z()}).second;
+        if (is_new) {
+          gain.unknown_voxels += status == Occupancy::kUnknown ? 1 : 0;
+          gain.free_voxels += status == Occupancy::kFree ? 1 : 0;
+          gain.occupied_voxels += status == Occupancy::kOccupied ? 1 : 0;
+        }
+        if (status == Occupancy::kOccupied) break;
+      }
+    }
+  }
+  return gain;
+}
+
+void expectEqual(const VolumetricGain& a, const VolumetricGain& b) {
+  EXPECT_EQ(a.unknown_voxels, b.unknown_voxels);
+  EXPECT_EQ(a.free_voxels, b.free_voxels);
+  EXPECT_EQ(a.occupied_voxels, b.occupied_voxels);
+}
+
+class GainIn : public testing::TestWithParam<GainCounting> {
+ protected:
+  GainIn() : map_(hallMap(MapParams{}, 4, 1500, 7)) {}
+
+  void expectEqualToTree(const std::vector<SensorModel>& sensors, const AxisAlignedBox& region,
+                         const AxisAlignedBox& bounds) {
+    const LocalWindow window(*map_.freeze(), region);
+    const GainEvaluator evaluator(sensors, 0.2, GetParam());
+    Rng rng(4);
+    long total = 0;
+    for (int i = 0; i < 12; ++i) {
+      const Eigen::Vector3d position(rng.uniform(-8, 8), rng.uniform(-3, 3), rng.uniform(0, 2));
+      const double yaw = rng.uniform(-7.0, 7.0);
+      const VolumetricGain gain = evaluator.evaluate(window, position, yaw, bounds);
+      expectEqual(gain,
+                  plainGain(map_.octree(), window, sensors, position, yaw, bounds, GetParam()));
+      EXPECT_DOUBLE_EQ(gain.unknown_m3, gain.unknown_voxels * 0.2 * 0.2 * 0.2);
+      total += gain.unknown_voxels;
+    }
+    EXPECT_GT(total, 1000);
+  }
+
+  OccupancyMap map_;
+};
+
+TEST_P(GainIn, EqualsLookUpsForLidar) {
+  expectEqualToTree({sensorOf(360, 30, 20)}, cube(32.0), AxisAlignedBox{});
+}
+
+TEST_P(GainIn, EqualsLookUpsWhereWindowCutsRays) {
+  expectEqualToTree({sensorOf(360, 30, 20)}, {{-10, -5, -1}, {6, 8, 4}}, AxisAlignedBox{});
+}
+
+TEST_P(GainIn, EqualsLookUpsWhereBoundsCutRays) {
+  expectEqualToTree({sensorOf(360, 30, 12)}, cube(25.0), {{-9.5, -4.7, -2.33}, {9.1, 6, 3.1}});
+}
+
+TEST_P(GainIn, EqualsLookUpsForSeveralMountedSensors) {
+  SensorModel camera = sensorOf(90, 60, 8);
+  camera.kind = "depth_camera";
+  camera.mount_m = {0.3, 0.1, -0.1};
+  camera.mount_yaw_deg = 180.0;
+  SensorModel tilted = sensorOf(80, 40, 10);
+  tilted.mount_pitch_deg = 30.0;
+  tilted.gain_resolution_deg = 8.0;
+  expectEqualToTree({sensorOf(360, 30, 15), camera, tilted}, cube(28.0), AxisAlignedBox{});
+}
+
+INSTANTIATE_TEST_SUITE_P(Countings, GainIn,
+                         testing::Values(GainCounting::kPerRay, GainCounting::kDistinct));
+
+TEST(VolumetricGain, EmptyMapIsAllUnknownToTheRange) {
+  OccupancyMap map{MapParams{}};
+  const LocalWindow window(*map.freeze(), cube(12.0));
+  const GainEvaluator rays({sensorOf(360, 30, 10)}, 0.2, GainCounting::kPerRay);
+  const GainEvaluator voxels({sensorOf(360, 30, 10)}, 0.2, GainCounting::kDistinct);
+  const VolumetricGain per_ray = rays.evaluate(window, {0.1, 0.1, 0.1}, 0.0, AxisAlignedBox{});
+  const VolumetricGain distinct = voxels.evaluate(window, {0.1, 0.1, 0.1}, 0.0, AxisAlignedBox{});
+  EXPECT_EQ(per_ray.free_voxels + per_ray.occupied_voxels, 0);
+  // 72 x 7 rays of 50 voxels length cross between 50 and 50 * sqrt(3) voxels each.
+  EXPECT_GT(per_ray.unknown_voxels, 504 * 49);
+  EXPECT_LT(per_ray.unknown_voxels, 504 * 87);
+  EXPECT_LT(distinct.unknown_voxels, per_ray.unknown_voxels);
+  EXPECT_GT(distinct.unknown_voxels, per_ray.unknown_voxels / 2);
+}
+
+TEST(VolumetricGain, CameraSeesOnlyWhereItLooks) {
+  OccupancyMap map{MapParams{}};
+  map.markFree({{-9.0, -9.0, -3.0}, {0.0, 9.0, 3.0}});  // the half space behind is known
+  const LocalWindow window(*map.freeze(), cube(8.0));
+  const GainEvaluator camera({sensorOf(90, 30, 5)}, 0.2);
+  const Eigen::Vector3d position(0.3, 0.1, 0.1);
+  const int ahead = camera.evaluate(window, position, 0.0, AxisAlignedBox{}).unknown_voxels;
+  const int behind = camera.evaluate(window, position, M_PI, AxisAlignedBox{}).unknown_voxels;
+  EXPECT_GT(ahead, 1000);
+  EXPECT_LT(behind, ahead / 20);
+  SensorModel backwards = sensorOf(90, 30, 5);
+  backwards.mount_yaw_deg = 180.0;
+  const GainEvaluator rear({backwards}, 0.2);
+  EXPECT_EQ(rear.evaluate(window, position, M_PI, AxisAlignedBox{}).unknown_voxels, ahead);
+}
+
+TEST(VolumetricGain, FullCircleDoesNotDependOnYaw) {
+  const LocalWindow window(*hallMap(MapParams{}, 3, 900, 2).freeze(), cube(25.0));
+  const GainEvaluator lidar({sensorOf(360, 30, 20)}, 0.2);
+  const VolumetricGain at_zero = lidar.evaluate(window, {0.0, 0.0, 1.0}, 0.0, AxisAlignedBox{});
+  expectEqual(lidar.evaluate(window, {0.0, 0.0, 1.0}, 2.1, AxisAlignedBox{}), at_zero);
+}
+
+TEST(VolumetricGain, PitchedSensorTurnsWithTheRobot) {
+  OccupancyMap map{MapParams{}};
+  map.markFree({{-9.0, -9.0, 0.0}, {9.0, 9.0, 6.0}});  // unknown only below
+  const LocalWindow window(*map.freeze(), cube(10.0));
+  SensorModel down = sensorOf(40, 30, 8);
+  down.mount_pitch_deg = 45.0;
+  SensorModel up = down;
+  up.mount_pitch_deg = -45.0;
+  const Eigen::Vector3d position(0.1, 0.1, 1.1);
+  const GainEvaluator looks_down({down}, 0.2);
+  const GainEvaluator looks_up({up}, 0.2);
+  for (const double yaw : {0.0, 1.0, -2.0, 3.1}) {
+    EXPECT_GT(looks_down.evaluate(window, position, yaw, AxisAlignedBox{}).unknown_voxels, 500);
+    EXPECT_LT(looks_up.evaluate(window, position, yaw, AxisAlignedBox{}).unknown_voxels, 500);
+  }
+}
+
+TEST(VolumetricGain, NothingCountsOutsideBoundsOrWindow) {
+  OccupancyMap map{MapParams{}};
+  const LocalWindow window(*map.freeze(), cube(5.0));
+  const GainEvaluator lidar({sensorOf(360, 30, 20)}, 0.2);
+  const AxisAlignedBox elsewhere{{1.0, 1.0, 1.0}, {2.0, 2.0, 2.0}};
+  EXPECT_EQ(lidar.evaluate(window, {0, 0, 0}, 0.0, elsewhere).unknown_voxels, 0);
+  EXPECT_EQ(lidar.evaluate(window, {50, 0, 0}, 0.0, AxisAlignedBox{}).unknown_voxels, 0);
+  EXPECT_THROW(
+      static_cast<void>(lidar.evaluate(window, {std::nan(""), 0, 0}, 0.0, AxisAlignedBox{})),
+      Precondition);
+}
+
+TEST(VolumetricGain, ReachCoversMountAndRange) {
+  SensorModel sensor = sensorOf(360, 30, 20);
+  sensor.mount_m = {0.0, 3.0, 4.0};
+  EXPECT_GE(GainEvaluator({sensor, sensorOf(90, 30, 8)}, 0.2).reach(), 25.0);
+}
+
+TEST(TemplateRays, FollowTheDirectionAndTheRange) {
+  const TemplateRays rays(sensorOf(360, 30, 20), 0.2);
+  ASSERT_EQ(rays.rays().size(), 504u);
+  for (std::size_t i = 0; i < rays.rays().size(); ++i) {
+    const double azimuth = static_cast<double>(i / 7) * 5.0 * M_PI / 180.0;
+    const double elevation = (static_cast<double>(i % 7) * 5.0 - 15.0) * M_PI / 180.0;
+    const Eigen::Vector3d direction(std::cos(elevation) * std::cos(azimuth),
+                                    std::cos(elevation) * std::sin(azimuth), std::sin(elevation));
+    VoxelIndex last = VoxelIndex::Zero();
+    for (std::uint32_t k = rays.rays()[i].begin; k < rays.rays()[i].end; ++k) {
+      const VoxelIndex at(rays.steps()[k][0], rays.steps()[k][1], rays.steps()[k][2]);
+      ASSERT_EQ((at - last).cwiseAbs().sum(), 1) << "a ray must not skip voxels";
+      const Eigen::Vector3d centre = at.cast<double>();
+      const Eigen::Vector3d off_axis = centre - centre.dot(direction) * direction;
+      ASSERT_LT(off_axis.norm(), 0.5 * std::sqrt(3.0) + 1e-6);
+      last = at;
+    }
+    EXPECT_NEAR(last.cast<double>().norm(), 100.0, 1.0);
+  }
+}
+
+}  // namespace
+}  // namespace spelunk::map
