@@ -34,7 +34,8 @@ void pinMathLibrary(int argc, char** argv) {
   if (setenv(kVariable, tunables.c_str(), 1) == 0) execv("/proc/self/exe", argv);
   log(LogLevel::kWarn,
       "cannot restart with a pinned mathematical library; runs may differ in the last digit from "
-      "those of other machines. Remedy: start with GLIBC_TUNABLES=" + std::string(kSetting));
+      "those of other machines. Remedy: start with GLIBC_TUNABLES=" +
+          std::string(kSetting));
 }
 
 }  // namespace spelunk

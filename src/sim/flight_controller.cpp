@@ -11,7 +11,6 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-constexpr double kGravity = 9.81;
 // Natural frequencies (rad/s) and damping of the loops: the attitude loop stays below the rotors'
 // lag, the position loop below a third of the attitude loop.
 constexpr double kPositionFrequency = 2.8;
@@ -43,14 +42,14 @@ Vector3d wantedForce(const Airframe& airframe, const BodyState& state,
       limited(reference.velocity - state.velocity, kVelocityErrorMax_mps);
   const Vector3d acceleration = kPositionFrequency * kPositionFrequency * position_error +
                                 2.0 * kPositionDamping * kPositionFrequency * velocity_error +
-                                acceleration_ahead + kGravity * Vector3d::UnitZ();
-  Vector3d force =
-      airframe.mass_kg * acceleration + airframe.drag_coefficient * reference.velocity;
-  const double weight = airframe.mass_kg * kGravity;
+                                acceleration_ahead + kGravity_mps2 * Vector3d::UnitZ();
+  Vector3d force = airframe.mass_kg * acceleration + airframe.drag_coefficient * reference.velocity;
+  const double weight = airframe.mass_kg * kGravity_mps2;
   force.z() = std::clamp(force.z(), kLiftShareMin * weight, 0.95 * airframe.thrust_max_n);
   const double spare_squared =
       airframe.thrust_max_n * airframe.thrust_max_n - force.z() * force.z();
-  const double sideways_max = std::min(force.z() * std::tan(kTiltMax_rad), std::sqrt(spare_squared));
+  const double sideways_max =
+      std::min(force.z() * std::tan(kTiltMax_rad), std::sqrt(spare_squared));
   const double sideways = force.head<2>().norm();
   if (sideways > sideways_max) force.head<2>() *= sideways_max / sideways;
   return force;

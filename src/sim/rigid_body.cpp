@@ -11,8 +11,7 @@ namespace {
 
 using Construction = btRigidBody::btRigidBodyConstructionInfo;
 
-constexpr double kGravity = 9.81;
-constexpr double kFriction = 0.3;     ///< Slides along a wall rather than catching on it.
+constexpr double kFriction = 0.3;  ///< Slides along a wall rather than catching on it.
 constexpr double kRestitution = 0.1;
 constexpr double kMeshMargin_m = 0.005;  ///< Contact begins this far from the mesh.
 
@@ -62,11 +61,11 @@ struct RigidBody::Impl {
     solver.setConstraintRowSolverLowerLimit(solver.getScalarConstraintRowSolverLowerLimit());
     world.getSolverInfo().m_solverMode &= ~SOLVER_SIMD;
     world.setForceUpdateAllAabbs(false);
-    world.setGravity({0.0, 0.0, -kGravity});
+    world.setGravity({0.0, 0.0, -kGravity_mps2});
     mesh_shape.setMargin(kMeshMargin_m);
     const Eigen::Quaterniond turn(Eigen::AngleAxisd(start.yaw, Eigen::Vector3d::UnitZ()));
-    body.setWorldTransform(btTransform(
-        btQuaternion(turn.x(), turn.y(), turn.z(), turn.w()), toBullet(start.position)));
+    body.setWorldTransform(btTransform(btQuaternion(turn.x(), turn.y(), turn.z(), turn.w()),
+                                       toBullet(start.position)));
     body.setInterpolationWorldTransform(body.getWorldTransform());
     body.setActivationState(DISABLE_DEACTIVATION);
     for (btRigidBody* part : {&ground, &body}) {
@@ -120,8 +119,7 @@ BodyState RigidBody::state() const {
   state.position = toEigen(transform.getOrigin());
   state.orientation = Eigen::Quaterniond(turn.w(), turn.x(), turn.y(), turn.z()).normalized();
   state.velocity = toEigen(body.getLinearVelocity());
-  state.angular_velocity =
-      toEigen(transform.getBasis().transpose() * body.getAngularVelocity());
+  state.angular_velocity = toEigen(transform.getBasis().transpose() * body.getAngularVelocity());
   return state;
 }
 

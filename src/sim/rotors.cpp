@@ -50,9 +50,9 @@ void Rotors::command(const Wrench& wanted) {
   const auto [least, most] = std::minmax_element(tilt.begin(), tilt.end());
   const double spread = *most - *least;
   const double tilt_share = spread > thrust_max_n_ ? thrust_max_n_ / spread : 1.0;
-  const double collective = std::clamp(wanted.thrust_n / n, -tilt_share * *least,
-                                       std::max(-tilt_share * *least,
-                                                thrust_max_n_ - tilt_share * *most));
+  const double collective =
+      std::clamp(wanted.thrust_n / n, -tilt_share * *least,
+                 std::max(-tilt_share * *least, thrust_max_n_ - tilt_share * *most));
   for (std::size_t k = 0; k < arms_.size(); ++k) commands_[k] = collective + tilt_share * tilt[k];
   const double yaw_share = feasibleShare(commands_, yaw, thrust_max_n_);
   for (std::size_t k = 0; k < arms_.size(); ++k)
@@ -75,8 +75,8 @@ Wrench Rotors::wrench() const {
   Wrench sum;
   for (std::size_t k = 0; k < arms_.size(); ++k) {
     sum.thrust_n += thrusts_[k];
-    sum.torque_nm += thrusts_[k] * Eigen::Vector3d(arms_[k].y_m, -arms_[k].x_m,
-                                                   arms_[k].spin * kDragTorqueRatio);
+    sum.torque_nm += thrusts_[k] *
+                     Eigen::Vector3d(arms_[k].y_m, -arms_[k].x_m, arms_[k].spin * kDragTorqueRatio);
   }
   return sum;
 }

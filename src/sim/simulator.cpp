@@ -16,8 +16,7 @@
 namespace spelunk::sim {
 namespace {
 
-constexpr double kGravity = 9.81;
-constexpr double kEpisodeGap_s = 0.5;   ///< Parted for so long, the next contact counts anew.
+constexpr double kEpisodeGap_s = 0.5;  ///< Parted for so long, the next contact counts anew.
 constexpr double kTimeTolerance_s = 1e-9;
 
 std::string textOf(const Pose& pose) {
@@ -75,24 +74,21 @@ class ContactLog {
   double last_contact_s_ = 0.0;
 };
 
-RobotState toRobotState(double stamp_s, const BodyState& body) {
-  Eigen::Isometry3d T_world_base = Eigen::Isometry3d::Identity();
-  T_world_base.translate(body.position);
-  T_world_base.rotate(body.orientation);
-  RobotState state;
-  state.stamp_s = stamp_s;
-  state.pose = poseOf(T_world_base);
-  state.orientation = body.orientation;
-  state.velocity = body.velocity;
-  state.yaw_rate = (body.orientation * body.angular_velocity).z();
-  return state;
-}
-
 Eigen::Isometry3d toIsometry(const BodyState& body) {
   Eigen::Isometry3d transform = Eigen::Isometry3d::Identity();
   transform.translate(body.position);
   transform.rotate(body.orientation);
   return transform;
+}
+
+RobotState toRobotState(double stamp_s, const BodyState& body) {
+  RobotState state;
+  state.stamp_s = stamp_s;
+  state.pose = poseOf(toIsometry(body));
+  state.orientation = body.orientation;
+  state.velocity = body.velocity;
+  state.yaw_rate = (body.orientation * body.angular_velocity).z();
+  return state;
 }
 
 }  // namespace
@@ -113,7 +109,7 @@ struct Simulator::Impl {
         braking_mps2(robot.braking_deceleration_mps2),
         scene(mesh),
         airframe{params.mass_kg, params.inertia_kgm2, params.drag_coefficient,
-                 params.thrust_to_weight * params.mass_kg * kGravity},
+                 params.thrust_to_weight * params.mass_kg * kGravity_mps2},
         rotors(params.rotors, params.rotor_arm_m, params.rotor_lag_s, airframe.thrust_max_n),
         body(mesh, {params.mass_kg, params.inertia_kgm2, params.body_m}, start),
         battery(params, robot),
@@ -125,7 +121,7 @@ struct Simulator::Impl {
     TrajectoryPoint hover;
     hover.pose = start;
     reference = {hover};
-    rotors.spinUp(params.mass_kg * kGravity);
+    rotors.spinUp(params.mass_kg * kGravity_mps2);
   }
 
   [[nodiscard]] double timeAfter(std::int64_t step_count) const {
@@ -137,10 +133,10 @@ struct Simulator::Impl {
     const double time_s = timeAfter(steps);
     const BodyState truth = body.state();
     const TrajectoryPoint ahead = stateAt(reference, time_s + kAccelerationPreview_s);
-    rotors.command(battery.isEmpty() ? Wrench{}
-                                     : computeWrench(airframe, odometry.estimate(),
-                                                     stateAt(reference, time_s),
-                                                     ahead.acceleration));
+    rotors.command(battery.isEmpty()
+                       ? Wrench{}
+                       : computeWrench(airframe, odometry.estimate(), stateAt(reference, time_s),
+                                       ahead.acceleration));
     rotors.advance(step_s);
     body.step(step_s, rotors.wrench(), -params.drag_coefficient * truth.velocity);
     ++steps;
@@ -153,8 +149,8 @@ struct Simulator::Impl {
     const double time_s = timeAfter(steps);
     for (RangeSensor& sensor : sensors) {
       if (sensor.nextScanTime() > time_s + kTimeTolerance_s) continue;
-      scans.push_back(sensor.scan(scene, toIsometry(body.state()),
-                                  toIsometry(odometry.measurement()), time_s));
+      scans.push_back(
+          sensor.scan(scene, toIsometry(body.state()), toIsometry(odometry.measurement()), time_s));
     }
   }
 

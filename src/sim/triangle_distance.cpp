@@ -66,9 +66,8 @@ double edgesDistanceSquared(const Triangle& triangle, const Vector3d& half) {
       if ((corner & (1 << axis)) != 0) continue;  // each edge once, from its lower end
       const Vector3d edge = Vector3d::Unit(axis) * 2.0 * half[axis];
       for (std::size_t k = 0; k < 3; ++k)
-        best = std::min(best, segmentDistanceSquared(triangle[k],
-                                                     triangle[(k + 1) % 3] - triangle[k], from,
-                                                     edge));
+        best = std::min(best, segmentDistanceSquared(
+                                  triangle[k], triangle[(k + 1) % 3] - triangle[k], from, edge));
     }
   }
   return best;

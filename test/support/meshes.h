@@ -30,8 +30,8 @@ inline sim::WorldMesh boxRoom(const Eigen::Vector3f& size_m) {
   return mesh;
 }
 
-/// A corridor from x = 0 to `length_m` (walls at y = +-width/2, ceiling at 3 m) with a square pillar
-/// of 0.5 m halfway.
+/// A corridor from x = 0 to `length_m` (walls at y = +-width/2, ceiling at 3 m) with a square
+/// pillar of 0.5 m halfway.
 inline sim::WorldMesh corridorWithPillar(float length_m, float width_m) {
   sim::WorldMesh mesh;
   mesh.name = "corridor";

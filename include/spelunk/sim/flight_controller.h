@@ -8,6 +8,8 @@
 
 namespace spelunk::sim {
 
+inline constexpr double kGravity_mps2 = 9.81;
+
 /// What the controller knows of the vehicle it flies.
 struct Airframe {
   double mass_kg = 1.0;
@@ -26,7 +28,7 @@ struct BodyState {
 
 /// How far ahead of now the reference's acceleration is asked for: the attitude needs about that
 /// long to turn the thrust.
-constexpr double kAccelerationPreview_s = 0.16;
+inline constexpr double kAccelerationPreview_s = 0.16;
 
 /// Thrust and torque that bring `state` to `reference`: a position loop that asks for a force and
 /// an attitude loop on SO(3) that turns the thrust there. Errors and tilt are limited so that a far
@@ -38,8 +40,8 @@ constexpr double kAccelerationPreview_s = 0.16;
 Wrench computeWrench(const Airframe& airframe, const BodyState& state,
                      const TrajectoryPoint& reference, const Eigen::Vector3d& acceleration_ahead);
 
-/// A reference that brakes from `position` with `velocity` at `deceleration_mps2`, starting at
-/// `time_s`, and holds where it comes to rest. The heading turns out with `yaw_rate`.
+/// A reference that brakes from the motion `from` at `deceleration_mps2`, starting at `time_s`, and
+/// holds where it comes to rest. The heading turns out over the same time.
 Trajectory brakingTrajectory(double time_s, const TrajectoryPoint& from, double deceleration_mps2);
 
 }  // namespace spelunk::sim

@@ -8,7 +8,8 @@
 namespace spelunk::sim {
 
 /// Dead reckoning: position and heading wander from the truth as a random walk over the distance
-/// flown; the reported position carries white noise on top. Without either it is the truth, exactly.
+/// flown; the reported position carries white noise on top. Without either it is the truth,
+/// exactly.
 class Odometry {
  public:
   /// `drift` is metres (1 sigma) after one metre; the heading drifts a tenth of that, in radians.

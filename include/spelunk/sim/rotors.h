@@ -7,7 +7,7 @@ namespace spelunk::sim {
 
 /// What a set of rotors can do together, in the base frame.
 struct Wrench {
-  double thrust_n = 0.0;                               ///< Along base z.
+  double thrust_n = 0.0;  ///< Along base z.
   Eigen::Vector3d torque_nm = Eigen::Vector3d::Zero();
 };
 
@@ -20,7 +20,8 @@ class Rotors {
   Rotors(int count, double arm_m, double lag_s, double thrust_max_n);
 
   /// Commands the thrusts nearest to `wanted`. Where the limits are in the way, yaw torque is given
-  /// up first, then the collective thrust, roll and pitch last: a robot that stays upright recovers.
+  /// up first, then the collective thrust, roll and pitch last: a robot that stays upright
+  /// recovers.
   void command(const Wrench& wanted);
 
   /// All rotors follow their commands for `step_s`.

@@ -25,7 +25,7 @@ struct SimParams {
   double rotor_arm_m = 0.3;
   double rotor_lag_s = 0.04;
   double thrust_to_weight = 2.2;
-  double drag_coefficient = 0.25;         ///< N s/m, linear.
+  double drag_coefficient = 0.25;  ///< N s/m, linear.
   double hover_power_w = 350.0;
   double motion_power_w_per_mps2 = 12.0;  ///< Added times speed squared.
   double battery_wh = 0.0;                ///< 0: what hovering for robot.endurance_s needs.
@@ -48,7 +48,8 @@ struct SimParams {
     field("thrust_to_weight", thrust_to_weight, Bounds{1.1, 10.0}, "all rotors at full");
     field("drag_coefficient", drag_coefficient, Bounds{0.0, 20.0}, "N s/m");
     field("hover_power_w", hover_power_w, Bounds{1.0, 1e4}, "electrical, hovering");
-    field("motion_power_w_per_mps2", motion_power_w_per_mps2, Bounds{0.0, 1e4}, "times speed squared");
+    field("motion_power_w_per_mps2", motion_power_w_per_mps2, Bounds{0.0, 1e4},
+          "times speed squared");
     field("battery_wh", battery_wh, Bounds{0.0, 1e5}, "0: from robot.endurance_s");
     field("dust_returns", dust_returns, Bounds{0.0, 1.0}, "share of rays that dust returns");
     field("odometry_drift", odometry_drift, Bounds{0.0, 0.2}, "m a metre, 1 sigma");
@@ -58,22 +59,22 @@ struct SimParams {
 
 struct BatteryState {
   double energy_wh = 0.0;
-  double fraction = 1.0;        ///< 0 .. 1
+  double fraction = 1.0;  ///< 0 .. 1
   double power_w = 0.0;
-  double remaining_s = 0.0;     ///< At the present mean power.
+  double remaining_s = 0.0;  ///< At the present mean power.
 };
 
 struct CollisionCount {
-  int episodes = 0;             ///< Contacts with the mesh, each counted once until parted for 0.5 s.
-  double seconds = 0.0;         ///< Time in contact.
+  int episodes = 0;      ///< Contacts with the mesh, each counted once until parted for 0.5 s.
+  double seconds = 0.0;  ///< Time in contact.
 };
 
 /// One scan with every simulated ray, for the mapping robot and for the referee.
 struct SimulatedScan {
-  Scan scan;                              ///< What the robot gets (odometry's pose, noisy hits).
+  Scan scan;  ///< What the robot gets (odometry's pose, noisy hits).
   Eigen::Isometry3d T_world_sensor_true = Eigen::Isometry3d::Identity();
   std::shared_ptr<const std::vector<Eigen::Vector3f>> directions;  ///< Sensor frame.
-  std::vector<float> true_ranges;         ///< One a direction; range_max where nothing was hit.
+  std::vector<float> true_ranges;  ///< One a direction; range_max where nothing was hit.
   float range_max_m = 0.0F;
 };
 
