@@ -1,0 +1,42 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "spelunk/common/box.h"
+#include "spelunk/evaluation/voxel_grid.h"
+#include "spelunk/sim/simulator.h"
+
+namespace spelunk::evaluation {
+
+/// Which rays of a scan are walked.
+enum class RayChoice {
+  kAll,         ///< Every ray of every scan.
+  kOneAnEnding  ///< Of the rays of a scan that end in one voxel the first, of every second scan.
+};
+
+/// Volume the sensors have seen, free and hit, counted along the simulated rays themselves (true
+/// poses, true ranges) at a fixed resolution. No planner's map is involved. A ray without a
+/// return counts as free up to its range. What lies outside the bounds is not counted.
+class ExploredVolume {
+ public:
+  explicit ExploredVolume(const AxisAlignedBox& bounds, double resolution_m = 0.2,
+                          RayChoice choice = RayChoice::kOneAnEnding);
+
+  void add(const sim::SimulatedScan& scan);
+
+  [[nodiscard]] double volume_m3() const;
+
+ private:
+  void walk(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction, double range_m);
+  [[nodiscard]] bool isFirstToEndIn(const Eigen::Vector3d& end);
+
+  VoxelGrid seen_;
+  VoxelGrid endings_;                        ///< Of the scan at hand.
+  std::vector<std::size_t> marked_endings_;  ///< To wipe them again.
+  RayChoice choice_;
+  std::size_t scans_ = 0;
+  std::size_t voxels_ = 0;
+};
+
+}  // namespace spelunk::evaluation

@@ -1,0 +1,53 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <vector>
+
+#include "spelunk/common/box.h"
+
+namespace spelunk::evaluation {
+
+/// One bit a voxel over a box, one voxel of margin on every side.
+class VoxelGrid {
+ public:
+  VoxelGrid(const AxisAlignedBox& bounds, double resolution_m);
+
+  [[nodiscard]] double resolution() const { return resolution_m_; }
+  [[nodiscard]] const Eigen::Vector3i& size() const { return size_; }
+  [[nodiscard]] Eigen::Vector3i cellOf(const Eigen::Vector3d& point) const;
+  [[nodiscard]] Eigen::Vector3d centreOf(const Eigen::Vector3i& cell) const;
+  /// `point` in units of voxels from the grid's corner.
+  [[nodiscard]] Eigen::Vector3d scaled(const Eigen::Vector3d& point) const;
+
+  [[nodiscard]] bool contains(const Eigen::Vector3i& cell) const {
+    return (cell.array() >= 0).all() && (cell.array() < size_.array()).all();
+  }
+  /// Only for cells the grid contains.
+  [[nodiscard]] std::size_t offsetOf(const Eigen::Vector3i& cell) const {
+    return static_cast<std::size_t>(cell.x()) +
+           static_cast<std::size_t>(size_.x()) *
+               (static_cast<std::size_t>(cell.y()) +
+                static_cast<std::size_t>(size_.y()) * static_cast<std::size_t>(cell.z()));
+  }
+  [[nodiscard]] bool isSet(std::size_t offset) const {
+    return (words_[offset >> 6] >> (offset & 63) & 1) != 0;
+  }
+  /// Sets the bit; whether it was clear before.
+  bool set(std::size_t offset) {
+    std::uint64_t& word = words_[offset >> 6];
+    const std::uint64_t bit = std::uint64_t{1} << (offset & 63);
+    const bool is_new = (word & bit) == 0;
+    word |= bit;
+    return is_new;
+  }
+  void clear(std::size_t offset) { words_[offset >> 6] &= ~(std::uint64_t{1} << (offset & 63)); }
+
+ private:
+  double resolution_m_;
+  Eigen::Vector3d corner_;
+  Eigen::Vector3i size_;
+  std::vector<std::uint64_t> words_;
+};
+
+}  // namespace spelunk::evaluation
