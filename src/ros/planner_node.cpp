@@ -43,8 +43,8 @@ void PlannerNode::tick() {
     const auto job = core_.with([&](MissionCore& core) {
       const double now_s = missionTime(core, ::ros::Time::now());
       core.mission.onRemaining(core.endurance.remaining(now_s));
-      startIfWanted(core, now_s);
       if (const auto command = core.mission.tick(now_s)) publish(core, *command);
+      startIfWanted(core, now_s);
       core.watch.checkSilence(now_s);
       publishStatusIfChanged(core, now_s);
       return core.mission.takeJob();
