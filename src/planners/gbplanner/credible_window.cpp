@@ -30,7 +30,9 @@ class BitPlanes {
   [[nodiscard]] std::size_t layerSize() const {
     return static_cast<std::size_t>(words_in_row_) * static_cast<std::size_t>(rows_);
   }
-  [[nodiscard]] Word* layer(int z) { return words_.data() + static_cast<std::size_t>(z) * layerSize(); }
+  [[nodiscard]] Word* layer(int z) {
+    return words_.data() + static_cast<std::size_t>(z) * layerSize();
+  }
   [[nodiscard]] const Word* layer(int z) const {
     return words_.data() + static_cast<std::size_t>(z) * layerSize();
   }
@@ -140,17 +142,46 @@ void addShifted(const Word* in, Word* out, const BitPlanes& shape, Side side) {
   }
 }
 
-/// Unknown voxels to one side of free ones over at least `height` voxels on end in z.
-void addOpenings(const Planes& planes, int height, Side side, BitPlanes& openings) {
+/// Voxels with an occupied one within `reach` voxels in x and y and one in z: the robot would not
+/// fit there whatever the unknown voxels turn out to be.
+BitPlanes blockedBy(const BitPlanes& occupied, int reach) {
+  BitPlanes wide = occupied;
+  std::vector<Word> before(occupied.layerSize());
+  for (int z = 0; z < wide.layers(); ++z) {
+    for (const auto& [one, other] :
+         {std::pair{Side::kLeft, Side::kRight}, std::pair{Side::kFront, Side::kBack}}) {
+      for (int k = 0; k < reach; ++k) {
+        std::copy_n(wide.layer(z), before.size(), before.begin());
+        addShifted(before.data(), wide.layer(z), wide, one);
+        addShifted(before.data(), wide.layer(z), wide, other);
+      }
+    }
+  }
+  BitPlanes blocked = wide;
+  for (int z = 0; z < wide.layers(); ++z) {
+    for (const int other : {z - 1, z + 1}) {
+      if (other < 0 || other >= wide.layers()) continue;
+      for (std::size_t i = 0; i < before.size(); ++i) blocked.layer(z)[i] |= wide.layer(other)[i];
+    }
+  }
+  return blocked;
+}
+
+/// Unknown voxels to one side of free ones, neither blocked, over at least `height` voxels on end
+/// in z.
+void addOpenings(const Planes& planes, const BitPlanes& blocked, int height, Side side,
+                 BitPlanes& openings) {
   const std::size_t size = openings.layerSize();
   const int layers = openings.layers();
   BitPlanes beside(openings.wordsInRow(), openings.rows(), layers);
+  std::vector<Word> passable(size);
   for (int z = 0; z < layers; ++z) {
     Word* out = beside.layer(z);
-    addShifted(planes.free.layer(z), out, beside, side);
     const Word* free = planes.free.layer(z);
-    const Word* occupied = planes.occupied.layer(z);
-    for (std::size_t i = 0; i < size; ++i) out[i] &= ~(free[i] | occupied[i]);
+    const Word* closed = blocked.layer(z);
+    for (std::size_t i = 0; i < size; ++i) passable[i] = free[i] & ~closed[i];
+    addShifted(passable.data(), out, beside, side);
+    for (std::size_t i = 0; i < size; ++i) out[i] &= ~(free[i] | closed[i]);
   }
   std::vector<Word> all(size);
   for (int z = 0; z + height <= layers; ++z) {
@@ -181,8 +212,8 @@ void sealAllBut(const BitPlanes& openings, Planes& planes) {
     const Word* free = planes.free.layer(z);
     const Word* open = openings.layer(z);
     for (std::size_t i = 0; i < size; ++i) {
-      const Word beside = near[i] | (below != nullptr ? below[i] : 0) |
-                          (above != nullptr ? above[i] : 0);
+      const Word beside =
+          near[i] | (below != nullptr ? below[i] : 0) | (above != nullptr ? above[i] : 0);
       occupied[i] |= beside & ~free[i] & ~open[i];
     }
   }
@@ -218,8 +249,10 @@ map::LocalWindow credibleWindow(const map::LocalWindow& window, const Credibilit
   closeColumns(planes, voxels(credibility.closing_height_m));
   BitPlanes openings(planes.free.wordsInRow(), planes.free.rows(), planes.free.layers());
   const int height = std::max(1, voxels(credibility.opening_height_m));
+  const BitPlanes blocked =
+      blockedBy(planes.occupied, std::max(0, voxels(credibility.opening_width_m / 2.0) - 1));
   for (const Side side : {Side::kLeft, Side::kRight, Side::kFront, Side::kBack})
-    addOpenings(planes, height, side, openings);
+    addOpenings(planes, blocked, height, side, openings);
   sealAllBut(openings, planes);
   return window.withCells(cellsOf(planes, window));
 }

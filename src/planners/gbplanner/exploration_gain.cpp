@@ -8,7 +8,8 @@
 namespace spelunk::planners::gbplanner {
 namespace {
 
-constexpr double kNoDirection = 1e-3;  // metres or metres a second below which a vector says nothing
+constexpr double kNoDirection =
+    1e-3;  // metres or metres a second below which a vector says nothing
 
 Eigen::Vector3d level(const Eigen::Vector3d& vector) { return {vector.x(), vector.y(), 0.0}; }
 

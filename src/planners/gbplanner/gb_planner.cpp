@@ -86,8 +86,8 @@ struct GbPlanner::Search {
       planner.global_.forgetChecksNear(root, longestRange(planner.robot_));
       planner.checked_map_ = request.map;
     }
-    way_home_m = graph::shortestPaths(planner.global_.graph(), current)
-                     .distanceTo(GlobalGraph::home());
+    way_home_m =
+        graph::shortestPaths(planner.global_.graph(), current).distanceTo(GlobalGraph::home());
   }
 
   void planLocally() {
@@ -135,8 +135,8 @@ struct GbPlanner::Search {
     const Polyline cut = toLine(slice(toPath(local.best, {root, request.pose.yaw}), 0.0,
                                       planner.params_.local_length_max_m));
     finish(improved(cut, view.localSpace()), PathKind::kLocal);
-    result.reason = "local path, " + std::to_string(std::lround(local.best_gain_m3)) +
-                    " m3 expected along it";
+    result.reason =
+        "local path, " + std::to_string(std::lround(local.best_gain_m3)) + " m3 expected along it";
   }
 
   void reposition() {
@@ -147,8 +147,8 @@ struct GbPlanner::Search {
                               return gainAnywhere(request, planner.params_, planner.evaluator_, at,
                                                   request.pose.yaw);
                             }};
-    const GlobalPlan plan = planGlobally(planner.global_, query, view.globalSpace(),
-                                         planner.tried_, planner.params_);
+    const GlobalPlan plan =
+        planGlobally(planner.global_, query, view.globalSpace(), planner.tried_, planner.params_);
     result.stats.global_ms += watch.milliseconds();
     if (plan.path.empty()) return reportNothingLeft(plan);
     finish(improved(fromRoot(plan.path), view.globalSpace()), PathKind::kReposition);
@@ -157,8 +157,8 @@ struct GbPlanner::Search {
   }
 
   void goHome() {
-    Polyline way = fromRoot(
-        planner.global_.findFreePath(current, GlobalGraph::home(), view.globalSpace()));
+    Polyline way =
+        fromRoot(planner.global_.findFreePath(current, GlobalGraph::home(), view.globalSpace()));
     if (way.empty()) {
       result.status = PlanStatus::kNoPath;
       result.reason = "no free path home is left in the global graph";
@@ -169,7 +169,8 @@ struct GbPlanner::Search {
     result.status = PlanStatus::kOk;
     result.kind = PathKind::kHome;
     result.path = startingAtPose(way);
-    result.reason = "shortest way home, " + std::to_string(std::lround(lengthOf(result.path))) + " m";
+    result.reason =
+        "shortest way home, " + std::to_string(std::lround(lengthOf(result.path))) + " m";
   }
 
   /// `way` from the root on; a path from a merged vertex begins up to its radius beside it.
@@ -203,9 +204,8 @@ struct GbPlanner::Search {
 
   void listRemaining() {
     for (const Frontier& frontier : planner.global_.frontiers()) {
-      const std::string why =
-          frontier.isOpen() ? "no time for it and the way home, or no free path"
-                            : frontier.closed_because;
+      const std::string why = frontier.isOpen() ? "no time for it and the way home, or no free path"
+                                                : frontier.closed_because;
       result.remaining.push_back(
           {planner.global_.graph().position(frontier.vertex), frontier.gain_m3, why});
     }
@@ -214,9 +214,9 @@ struct GbPlanner::Search {
   Polyline improved(const Polyline& line, const FreeSpace& space) {
     const Stopwatch watch;
     const GbPlannerParams& params = planner.params_;
-    Polyline better = improvedPath(line, space, view.window(),
-                                   {params.shortcut_length_max_m, params.prune_length_m,
-                                    params.inflation_radius_m});
+    Polyline better = improvedPath(
+        line, space, view.window(),
+        {params.shortcut_length_max_m, params.prune_length_m, params.inflation_radius_m});
     result.stats.improve_ms += watch.milliseconds();
     return better;
   }
@@ -241,8 +241,8 @@ struct GbPlanner::Search {
     GraphLayer layer{"local", {}, {}};
     const graph::SpatialGraph& graph = local.local.graph;
     for (std::size_t i = 0; i < graph.vertexCount(); ++i) {
-      layer.vertices.push_back({graph.position(VertexId{static_cast<std::uint32_t>(i)}),
-                                local.gains_m3[i], false});
+      layer.vertices.push_back(
+          {graph.position(VertexId{static_cast<std::uint32_t>(i)}), local.gains_m3[i], false});
     }
     for (const auto& [a, b] : graph.edges())
       layer.edges.emplace_back(static_cast<std::uint32_t>(a), static_cast<std::uint32_t>(b));

@@ -122,7 +122,8 @@ void GlobalGraph::forgetChecksNear(const Eigen::Vector3d& point, double radius_m
 GraphLayer GlobalGraph::layer() const {
   GraphLayer layer{"global", {}, {}};
   for (std::size_t i = 0; i < graph_.vertexCount(); ++i)
-    layer.vertices.push_back({graph_.position(VertexId{static_cast<std::uint32_t>(i)}), 0.0, false});
+    layer.vertices.push_back(
+        {graph_.position(VertexId{static_cast<std::uint32_t>(i)}), 0.0, false});
   for (const Frontier& frontier : frontiers_) {
     GraphVertex& vertex = layer.vertices[indexOf(frontier.vertex)];
     vertex.gain_m3 = frontier.gain_m3;

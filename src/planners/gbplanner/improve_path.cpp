@@ -45,11 +45,10 @@ struct EdgeFrame {
 
 /// Occupied voxel centres near an edge, in the edge's frame.
 std::vector<Eigen::Vector3d> obstaclesNear(const EdgeFrame& frame, const Eigen::Vector3d& a,
-                                           const Eigen::Vector3d& b,
-                                           const map::LocalWindow& window, double radius_m) {
+                                           const Eigen::Vector3d& b, const map::LocalWindow& window,
+                                           double radius_m) {
   const Eigen::Vector3d reach = Eigen::Vector3d::Constant(radius_m);
-  const map::VoxelIndex low =
-      window.indexOf(a.cwiseMin(b) - reach).cwiseMax(window.origin());
+  const map::VoxelIndex low = window.indexOf(a.cwiseMin(b) - reach).cwiseMax(window.origin());
   const map::VoxelIndex high =
       window.indexOf(a.cwiseMax(b) + reach)
           .cwiseMin((window.origin().array() + window.size().array() - 1).matrix());
@@ -79,8 +78,8 @@ std::vector<Halfspace> tangentPlanes(std::vector<Eigen::Vector3d> obstacles, dou
   const Eigen::Vector3d inverse_squared = half_axes.cwiseProduct(half_axes).cwiseInverse();
   std::vector<Halfspace> planes;
   while (!obstacles.empty() && planes.size() < kPlanesMax) {
-    const auto nearest = std::min_element(
-        obstacles.begin(), obstacles.end(), [&](const auto& p, const auto& q) {
+    const auto nearest =
+        std::min_element(obstacles.begin(), obstacles.end(), [&](const auto& p, const auto& q) {
           return p.cwiseProduct(p).dot(inverse_squared) < q.cwiseProduct(q).dot(inverse_squared);
         });
     const Eigen::Vector3d normal = nearest->cwiseProduct(inverse_squared).normalized();
@@ -166,10 +165,10 @@ Eigen::Vector3d roomiestPoint(const Eigen::Vector3d& a, const Eigen::Vector3d& b
   constexpr double kNoLength = 1e-6;
   if ((b - a).norm() < kNoLength) return b;
   const EdgeFrame frame(a, b);
-  const std::vector<Halfspace> planes = tangentPlanes(
-      obstaclesNear(frame, a, b, window, radius_m), frame.half_length, radius_m);
-  Polygon polygon{{-radius_m, -radius_m}, {radius_m, -radius_m}, {radius_m, radius_m},
-                  {-radius_m, radius_m}};
+  const std::vector<Halfspace> planes =
+      tangentPlanes(obstaclesNear(frame, a, b, window, radius_m), frame.half_length, radius_m);
+  Polygon polygon{
+      {-radius_m, -radius_m}, {radius_m, -radius_m}, {radius_m, radius_m}, {-radius_m, radius_m}};
   for (const Halfspace& plane : planes) {
     const double offset = plane.offset - plane.normal.x() * frame.half_length;  // at vertex b
     polygon = clipped(polygon, plane.normal.tail<2>(), offset);
@@ -179,10 +178,10 @@ Eigen::Vector3d roomiestPoint(const Eigen::Vector3d& a, const Eigen::Vector3d& b
   return b + frame.axes[1] * centre.x() + frame.axes[2] * centre.y();
 }
 
-Polyline improvedPath(const Polyline& path, const FreeSpace& space,
-                      const map::LocalWindow& window, const ImproveLimits& limits) {
-  Polyline improved = pruned(shortened(path, space, limits.shortcut_length_max_m), space,
-                             limits.prune_length_m);
+Polyline improvedPath(const Polyline& path, const FreeSpace& space, const map::LocalWindow& window,
+                      const ImproveLimits& limits) {
+  Polyline improved =
+      pruned(shortened(path, space, limits.shortcut_length_max_m), space, limits.prune_length_m);
   for (std::size_t i = 1; i < improved.size(); ++i) {
     const Eigen::Vector3d centre =
         roomiestPoint(improved[i - 1], improved[i], window, limits.inflation_radius_m);

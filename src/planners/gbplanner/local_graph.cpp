@@ -13,24 +13,27 @@ constexpr int kSamplesBetweenClockReads = 64;
 
 void count(Rejection rejection, PlanStats& stats) {
   switch (rejection) {
-    case Rejection::kNone: break;
-    case Rejection::kOccupied: ++stats.rejected_occupied; break;
-    case Rejection::kUnknown: ++stats.rejected_unknown; break;
-    case Rejection::kOutOfBounds: ++stats.rejected_out_of_bounds; break;
-    case Rejection::kNoGo: ++stats.rejected_no_go; break;
+    case Rejection::kNone:
+      break;
+    case Rejection::kOccupied:
+      ++stats.rejected_occupied;
+      break;
+    case Rejection::kUnknown:
+      ++stats.rejected_unknown;
+      break;
+    case Rejection::kOutOfBounds:
+      ++stats.rejected_out_of_bounds;
+      break;
+    case Rejection::kNoGo:
+      ++stats.rejected_no_go;
+      break;
   }
-}
-
-Eigen::Vector3d sampleIn(const AxisAlignedBox& box, Rng& rng) {
-  const double x = rng.uniform(box.min.x(), box.max.x());
-  const double y = rng.uniform(box.min.y(), box.max.y());
-  const double z = rng.uniform(box.min.z(), box.max.z());
-  return {x, y, z};
 }
 
 struct Expansion {
   LocalGraph& local;
   const FreeSpace& space;
+  const FreeSpace& roomy;
   const GbPlannerParams& params;
   PlanStats& stats;
 
@@ -44,7 +47,8 @@ struct Expansion {
     const Eigen::Vector3d from = local.graph.position(nearest);
     const double gap = (point - from).norm();
     if (gap < params.edge_length_min_m) return;
-    if (gap > params.edge_length_max_m) point = from + (point - from) * (params.edge_length_max_m / gap);
+    if (gap > params.edge_length_max_m)
+      point = from + (point - from) * (params.edge_length_max_m / gap);
     const Rejection at_point = space.at(point);
     if (at_point != Rejection::kNone) return count(at_point, stats);
     if (!space.isFree(from, point)) {
@@ -52,8 +56,12 @@ struct Expansion {
       return;
     }
     const VertexId added = local.graph.addVertex(point);
-    local.graph.addEdge(nearest, added, (point - from).norm());
+    local.graph.addEdge(nearest, added, weightOf(from, point));
     connect(added);
+  }
+
+  [[nodiscard]] double weightOf(const Eigen::Vector3d& a, const Eigen::Vector3d& b) const {
+    return (a - b).norm() * (roomy.isFree(a, b) ? 1.0 : params.tightness_cost);
   }
 
   void connect(VertexId added) {
@@ -63,27 +71,29 @@ struct Expansion {
       if (near == added || local.graph.hasEdge(near, added)) continue;
       if (++tried > params.connections_max) return;
       const Eigen::Vector3d& other = local.graph.position(near);
-      if (space.isFree(point, other)) local.graph.addEdge(near, added, (point - other).norm());
+      if (space.isFree(point, other)) local.graph.addEdge(near, added, weightOf(point, other));
     }
   }
 };
 
 }  // namespace
 
-LocalGraph buildLocalGraph(const Eigen::Vector3d& root, const AxisAlignedBox& box,
-                           const FreeSpace& space, const GbPlannerParams& params,
+LocalGraph buildLocalGraph(const Eigen::Vector3d& root, const FreeSampler& sampler,
+                           const FreeSpace& space, const FreeSpace& roomy, const GbPlannerParams& params,
                            const PlanBudget& budget, Rng rng, PlanStats& stats) {
   const Stopwatch watch;
   LocalGraph local;
   local.root = local.graph.addVertex(root);
-  Expansion expansion{local, space, params, stats};
+  Expansion expansion{local, space, roomy, params, stats};
   while (!expansion.isFull() && stats.samples < budget.iterations) {
     if (stats.samples % kSamplesBetweenClockReads == 0 &&
         watch.milliseconds() > budget.seconds * 1e3) {
       break;
     }
     ++stats.samples;
-    expansion.tryPoint(sampleIn(box, rng));
+    const auto sample = sampler.draw(rng);
+    if (!sample) break;
+    expansion.tryPoint(*sample);
   }
   stats.vertices = static_cast<int>(local.graph.vertexCount());
   stats.edges = static_cast<int>(local.graph.edgeCount());

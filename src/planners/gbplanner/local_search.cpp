@@ -21,13 +21,13 @@ struct Search {
   const GbPlannerParams& params;
   PlanStats& stats;
   LocalPlan plan{};
-  std::vector<Polyline> paths{};  // Sigma_L by leaf: positions
+  std::vector<Polyline> paths{};              // Sigma_L by leaf: positions
   std::vector<std::vector<VertexId>> ways{};  // and vertices
 
   void buildGraph(const Eigen::Vector3d& root) {
     const Stopwatch watch;
-    plan.local = buildLocalGraph(root, view.localBox(), view.localSpace(), params, request.budget,
-                                 request.rng.fork("gbplanner/local_graph"), stats);
+    plan.local =
+        buildLocalGraph(root, FreeSampler(view.window(), view.localBox()), view.localSpace(), view.roomySpace(), params, request.budget, request.rng.fork("gbplanner/local_graph"), stats);
     stats.graph_ms = watch.milliseconds();
   }
 
@@ -45,8 +45,11 @@ struct Search {
   void computeVolumetricGains() {
     const Stopwatch watch;
     view.prepareGains();
-    for (std::size_t i = 0; i < paths.size(); ++i)
-      plan.gains_m3.push_back(view.gainAt(paths[i].back(), headingAtEnd(paths[i])));
+    for (const Polyline& path : paths) {
+      const double gain = view.gainAt(path.back(), headingAtEnd(path));
+      const bool is_roomy = view.roomySpace().at(path.back()) == Rejection::kNone;
+      plan.gains_m3.push_back(is_roomy ? gain : gain / params.tightness_cost);
+    }
     stats.gain_ms = watch.milliseconds();
   }
 
@@ -118,17 +121,17 @@ struct Search {
   [[nodiscard]] bool fitsBudget(std::size_t i) const {
     const double length = graph::lengthOf(paths[i]);
     const double out = estimatedTime(length, robot.speed_max_mps, params.eta_factor);
-    const double back = estimatedTime(length + context.way_home_m, robot.speed_max_mps,
-                                      params.eta_factor);
+    const double back =
+        estimatedTime(length + context.way_home_m, robot.speed_max_mps, params.eta_factor);
     return explorationTime(request.remaining_s, out, back) > 0.0;
   }
 };
 
 }  // namespace
 
-LocalPlan planLocally(const PlanRequest& request, PlanView& view,
-                      const Eigen::Vector3d& root, const LocalContext& context,
-                      const RobotModel& robot, const GbPlannerParams& params, PlanStats& stats) {
+LocalPlan planLocally(const PlanRequest& request, PlanView& view, const Eigen::Vector3d& root,
+                      const LocalContext& context, const RobotModel& robot,
+                      const GbPlannerParams& params, PlanStats& stats) {
   Search search{request, view, context, robot, params, stats};
   search.buildGraph(root);
   search.findShortestPaths();

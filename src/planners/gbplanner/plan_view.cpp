@@ -1,5 +1,7 @@
 #include "spelunk/planners/gbplanner/plan_view.h"
 
+#include <utility>
+
 #include "spelunk/common/contract.h"
 #include "spelunk/planners/gbplanner/credible_window.h"
 
@@ -27,7 +29,7 @@ Eigen::Vector3d gainMargin(const map::GainEvaluator& evaluator) {
 }
 
 Credibility credibilityOf(const GbPlannerParams& params) {
-  return {params.closing_height_m, params.opening_height_m};
+  return {params.closing_height_m, params.opening_height_m, params.opening_width_m};
 }
 
 }  // namespace
@@ -37,22 +39,26 @@ PlanView::PlanView(const PlanRequest& request, const RobotModel& robot,
     : request_(request),
       params_(params),
       evaluator_(evaluator),
-      local_box_(intersection(boxAround(request.pose.position, params.local_box_m),
-                              request.bounds)),
-      window_(*request.map, knownPart(grown(local_box_, robot.box_m), *request.map,
-                                      request.pose.position)),
+      local_box_(
+          intersection(boxAround(request.pose.position, params.local_box_m), request.bounds)),
+      window_(*request.map, knownPart(grown(local_box_, robot.box_m + params.safety_margin_m),
+                                      *request.map, request.pose.position)),
       inflated_(window_, robot.box_m),
+      inflated_roomy_(window_, robot.box_m + 2.0 * params.safety_margin_m),
       checker_(std::make_unique<navigation::SegmentChecker>(request.map, robot.box_m)),
-      local_space_([this](const Eigen::Vector3d& a,
-                          const Eigen::Vector3d& b) { return inflated_.sweep(a, b); },
+      local_space_([this](const Eigen::Vector3d& p,
+                          const Eigen::Vector3d& q) { return inflated_.sweep(p, q); },
+                   robot.box_m, request.bounds, request.zones),
+      roomy_space_([this](const Eigen::Vector3d& p,
+                          const Eigen::Vector3d& q) { return inflated_roomy_.sweep(p, q); },
                    robot.box_m, request.bounds, request.zones),
       global_space_([this](const Eigen::Vector3d& a,
                            const Eigen::Vector3d& b) { return checker_->sweep(a, b); },
                     robot.box_m, request.bounds, request.zones) {}
 
 void PlanView::prepareGains() {
-  const AxisAlignedBox region = knownPart(grown(local_box_, gainMargin(evaluator_)),
-                                          *request_.map, request_.pose.position);
+  const AxisAlignedBox region =
+      knownPart(grown(local_box_, gainMargin(evaluator_)), *request_.map, request_.pose.position);
   credible_ = credibleWindow(map::LocalWindow(*request_.map, region), credibilityOf(params_));
 }
 

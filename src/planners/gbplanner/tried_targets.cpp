@@ -11,11 +11,15 @@ int failuresAllowed(PathOutcome outcome) {
   switch (outcome) {
     case PathOutcome::kNone:
     case PathOutcome::kReached:
-    case PathOutcome::kReplaced: return 0;
+    case PathOutcome::kReplaced:
+      return 0;
     case PathOutcome::kBlocked:
-    case PathOutcome::kDeviated: return 3;
-    case PathOutcome::kRejectedUnsafe: return 2;
-    case PathOutcome::kRejectedBudget: return 1;
+    case PathOutcome::kDeviated:
+      return 3;
+    case PathOutcome::kRejectedUnsafe:
+      return 2;
+    case PathOutcome::kRejectedBudget:
+      return 1;
   }
   return 0;
 }

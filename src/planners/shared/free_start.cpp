@@ -38,11 +38,12 @@ StartCheck checkStart(const PlanRequest& request, const FreeSpace& space) {
     if (space.at(position + offset) == Rejection::kNone)
       return {position + offset, PlanStatus::kOk, ""};
   }
-  const char* reason = here == Rejection::kOccupied
-                           ? "the robot's box at the start touches an obstacle, and no place within "
-                             "0.6 m is free"
-                           : "the robot's box at the start touches unknown space, and no place "
-                             "within 0.6 m is known to be free";
+  const char* reason =
+      here == Rejection::kOccupied
+          ? "the robot's box at the start touches an obstacle, and no place within "
+            "0.6 m is free"
+          : "the robot's box at the start touches unknown space, and no place "
+            "within 0.6 m is known to be free";
   return {std::nullopt, PlanStatus::kStartBlocked, reason};
 }
 

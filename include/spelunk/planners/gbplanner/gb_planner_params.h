@@ -10,14 +10,14 @@ namespace spelunk::planners::gbplanner {
 
 /// Parameters of GBPlanner (section "gbplanner"). Symbols of Dang 2020 in brackets.
 struct GbPlannerParams {
-  Eigen::Vector3d local_box_m{36.0, 36.0, 6.0};
-  int max_vertices = 350;
+  Eigen::Vector3d local_box_m{80.0, 80.0, 6.0};
+  int max_vertices = 300;
   int max_edges = 5000;
-  double edge_length_min_m = 0.6;
-  double edge_length_max_m = 4.0;
-  double connection_radius_m = 3.0;
+  double edge_length_min_m = 1.0;
+  double edge_length_max_m = 6.0;
+  double connection_radius_m = 5.0;
   int connections_max = 10;
-  double gain_threshold_m3 = 12.0;
+  double gain_threshold_m3 = 80.0;
   double similarity_weight = 0.012;
   double distance_weight = 0.02;
   double direction_window_s = 6.0;
@@ -27,7 +27,10 @@ struct GbPlannerParams {
   bool count_once = false;
   double closing_height_m = 1.4;
   double opening_height_m = 0.8;
-  double frontier_gain_m3 = 15.0;
+  double opening_width_m = 1.2;
+  Eigen::Vector3d safety_margin_m{0.1, 0.1, 0.3};
+  double tightness_cost = 2.0;
+  double frontier_gain_m3 = 25.0;
   double frontier_spacing_m = 3.0;
   double cluster_distance_m = 2.0;
   double global_distance_weight = 0.02;
@@ -57,6 +60,9 @@ struct GbPlannerParams {
     field("count_once", count_once, Bounds{}, "count the gain of a path at its best vertex instead of the sum over all");
     field("closing_height_m", closing_height_m, Bounds{0.0, 10.0}, "gaps between sensor rows this high hold nothing to explore");
     field("opening_height_m", opening_height_m, Bounds{0.0, 10.0}, "lower openings hold nothing to explore");
+    field("opening_width_m", opening_width_m, Bounds{0.0, 20.0}, "narrower openings hold nothing to explore");
+    field("safety_margin_m", safety_margin_m, Bounds{0.0, 2.0}, "room wanted on each side", Audience::kUser);
+    field("tightness_cost", tightness_cost, Bounds{1.0, 100.0}, "ways without that room count as this many times longer");
     field("frontier_gain_m3", frontier_gain_m3, Bounds{0.0, 1e6}, "volumetric gain that makes a leaf a frontier", Audience::kUser);
     field("frontier_spacing_m", frontier_spacing_m, Bounds{0.1, 50.0}, "frontiers nearer to each other are one");
     field("cluster_distance_m", cluster_distance_m, Bounds{0.1, 50.0}, "mean distance of paths that are one branch");

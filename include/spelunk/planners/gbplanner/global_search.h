@@ -21,18 +21,18 @@ struct GlobalQuery {
 
 /// A way to a frontier, or why there is none.
 struct GlobalPlan {
-  graph::Polyline path;             ///< Empty if no frontier can be gone to.
+  graph::Polyline path;  ///< Empty if no frontier can be gone to.
   std::optional<Eigen::Vector3d> target;
   double gain_m3 = 0.0;
-  double best = 0.0;                ///< Eq. (2) of the chosen frontier.
-  int out_of_budget = 0;            ///< Open frontiers that eq. (3) rules out.
-  int unreachable = 0;              ///< Open frontiers no free path leads to.
+  double best = 0.0;      ///< Eq. (2) of the chosen frontier.
+  int out_of_budget = 0;  ///< Open frontiers that eq. (3) rules out.
+  int unreachable = 0;    ///< Open frontiers no free path leads to.
 };
 
 /// The global planner (Dang 2020, Alg. 3), ImprovePath left to the caller: the frontier that
-/// maximises eq. (2), on a path checked in `space`. The gain of the best one is computed anew before
-/// it is believed; frontiers that fell below frontier_gain_m3 are dropped and the next best is
-/// looked at. Frontiers near a tried target are closed with the reason.
+/// maximises eq. (2), on a path checked in `space`. The gain of the best one is computed anew
+/// before it is believed; frontiers that fell below frontier_gain_m3 are dropped and the next best
+/// is looked at. Frontiers near a tried target are closed with the reason.
 [[nodiscard]] GlobalPlan planGlobally(GlobalGraph& global, const GlobalQuery& query,
                                       const FreeSpace& space, const TriedTargets& tried,
                                       const GbPlannerParams& params);

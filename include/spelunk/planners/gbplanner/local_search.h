@@ -29,7 +29,7 @@ struct LocalPlan {
   std::vector<double> gains_m3;  ///< One a vertex.
   graph::Polyline best;          ///< Not improved yet; empty on local completion.
   double best_gain_m3 = 0.0;     ///< Discounted gain of the best path; its own if none qualified.
-  bool is_over_budget = false;   ///< A path qualified, but there is no time for it and the way home.
+  bool is_over_budget = false;  ///< A path qualified, but there is no time for it and the way home.
   std::vector<PrincipalPath> principals;
 };
 

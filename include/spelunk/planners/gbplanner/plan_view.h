@@ -28,6 +28,8 @@ class PlanView {
   [[nodiscard]] const map::LocalWindow& window() const { return window_; }
   /// The local box; positions outside it are unknown.
   [[nodiscard]] const FreeSpace& localSpace() const { return local_space_; }
+  /// The same with the safety margin around the robot: where it would rather be.
+  [[nodiscard]] const FreeSpace& roomySpace() const { return roomy_space_; }
   /// The whole map, slower.
   [[nodiscard]] const FreeSpace& globalSpace() const { return global_space_; }
   /// Makes the window that gains are computed in; call once before gainAt().
@@ -43,8 +45,10 @@ class PlanView {
   map::LocalWindow window_;
   std::optional<map::LocalWindow> credible_;
   map::InflatedWindow inflated_;
+  map::InflatedWindow inflated_roomy_;
   std::unique_ptr<navigation::SegmentChecker> checker_;
   FreeSpace local_space_;
+  FreeSpace roomy_space_;
   FreeSpace global_space_;
 };
 

@@ -18,7 +18,8 @@ struct StartCheck {
 
 /// The requested position if the robot's box is free there; else the nearest free position within
 /// 0.6 m of it (a voxel of noise may touch the box of a robot that flies well). A start outside the
-/// bounds or inside a zone is refused as kOutOfBounds, one without free place near as kStartBlocked.
+/// bounds or inside a zone is refused as kOutOfBounds, one without free place near as
+/// kStartBlocked.
 [[nodiscard]] StartCheck checkStart(const PlanRequest& request, const FreeSpace& space);
 
 /// The result of a plan that cannot begin.
