@@ -7,7 +7,7 @@ namespace {
 
 constexpr double kJoulesPerWattHour = 3600.0;
 constexpr double kTypicalSpeedShare = 0.7;  ///< Of the cruising speed, r.m.s., stops included.
-constexpr double kMeanPowerWindow_s = 30.0;
+constexpr double kMeanPowerWindow = 30.0;   ///< Seconds.
 
 }  // namespace
 
@@ -25,7 +25,7 @@ Battery::Battery(const SimParams& params, const RobotModel& robot)
 void Battery::draw(double step_s, double speed_mps) {
   power_w_ = hover_power_w_ + motion_power_w_per_mps2_ * speed_mps * speed_mps;
   energy_j_ = std::max(0.0, energy_j_ - power_w_ * step_s);
-  mean_power_w_ += std::min(1.0, step_s / kMeanPowerWindow_s) * (power_w_ - mean_power_w_);
+  mean_power_w_ += std::min(1.0, step_s / kMeanPowerWindow) * (power_w_ - mean_power_w_);
 }
 
 BatteryState Battery::state() const {

@@ -19,9 +19,9 @@ constexpr double kTiltFrequency = 11.0;
 constexpr double kTiltDamping = 0.9;
 constexpr double kYawFrequency = 4.0;
 constexpr double kYawDamping = 1.0;
-constexpr double kPositionErrorMax_m = 1.0;
-constexpr double kVelocityErrorMax_mps = 2.0;
-constexpr double kTiltMax_rad = 0.6;  ///< Beyond it, height is held first.
+constexpr double kPositionErrorMax = 1.0;  ///< Metres.
+constexpr double kVelocityErrorMax = 2.0;  ///< m/s
+constexpr double kTiltMax = 0.6;           ///< rad; beyond it, height is held first.
 constexpr double kYawErrorMax = 0.5;
 constexpr double kLiftShareMin = 0.35;  ///< Of the weight: rotors that idle cannot steer.
 
@@ -37,19 +37,17 @@ Vector3d vee(const Matrix3d& skew) { return {skew(2, 1), skew(0, 2), skew(1, 0)}
 Vector3d wantedForce(const Airframe& airframe, const BodyState& state,
                      const TrajectoryPoint& reference, const Vector3d& acceleration_ahead) {
   const Vector3d position_error =
-      limited(reference.pose.position - state.position, kPositionErrorMax_m);
-  const Vector3d velocity_error =
-      limited(reference.velocity - state.velocity, kVelocityErrorMax_mps);
+      limited(reference.pose.position - state.position, kPositionErrorMax);
+  const Vector3d velocity_error = limited(reference.velocity - state.velocity, kVelocityErrorMax);
   const Vector3d acceleration = kPositionFrequency * kPositionFrequency * position_error +
                                 2.0 * kPositionDamping * kPositionFrequency * velocity_error +
-                                acceleration_ahead + kGravity_mps2 * Vector3d::UnitZ();
+                                acceleration_ahead + kGravity * Vector3d::UnitZ();
   Vector3d force = airframe.mass_kg * acceleration + airframe.drag_coefficient * reference.velocity;
-  const double weight = airframe.mass_kg * kGravity_mps2;
+  const double weight = airframe.mass_kg * kGravity;
   force.z() = std::clamp(force.z(), kLiftShareMin * weight, 0.95 * airframe.thrust_max_n);
   const double spare_squared =
       airframe.thrust_max_n * airframe.thrust_max_n - force.z() * force.z();
-  const double sideways_max =
-      std::min(force.z() * std::tan(kTiltMax_rad), std::sqrt(spare_squared));
+  const double sideways_max = std::min(force.z() * std::tan(kTiltMax), std::sqrt(spare_squared));
   const double sideways = force.head<2>().norm();
   if (sideways > sideways_max) force.head<2>() *= sideways_max / sideways;
   return force;

@@ -20,8 +20,8 @@ namespace {
 /// Rays traced together. Neighbouring rays of a scan stay in one packet: they walk the same nodes.
 constexpr std::size_t kPacket = 8;
 
-/// Farther off from Embree's range, the range to a triangle's plane is not believed.
-constexpr float kRangeDoubt_m = 0.01F;
+/// Farther off from Embree's range (metres), the range to a triangle's plane is not believed.
+constexpr float kRangeDoubt = 0.01F;
 
 /// Embree would take the widest instruction set of the machine, and different ones round ranges
 /// differently. AVX2 is the lowest that is 18 times faster than Bullet's rayTest in a mine (35 x;
@@ -175,7 +175,7 @@ struct MeshScene::Impl {
     const Plane& plane = planes[triangle];
     const double height = plane.offset - plane.normal.dot(origin);
     const auto range = static_cast<float>(height / plane.normal.dot(direction.cast<double>()));
-    return std::abs(range - embree_range) < kRangeDoubt_m ? std::max(0.0F, range) : embree_range;
+    return std::abs(range - embree_range) < kRangeDoubt ? std::max(0.0F, range) : embree_range;
   }
 
   WorldMesh mesh;

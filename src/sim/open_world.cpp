@@ -1,6 +1,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
@@ -54,10 +55,10 @@ bool take(std::string_view& bytes, T* values, std::size_t count) {
 
 std::string serialised(const WorldMesh& mesh) {
   std::string bytes;
-  const std::uint32_t header[] = {kCacheMagic, static_cast<std::uint32_t>(mesh.vertices.size()),
-                                  static_cast<std::uint32_t>(mesh.triangles.size()),
-                                  mesh.start ? 1U : 0U};
-  append(bytes, header, std::size(header));
+  const std::array<std::uint32_t, 4> header{
+      kCacheMagic, static_cast<std::uint32_t>(mesh.vertices.size()),
+      static_cast<std::uint32_t>(mesh.triangles.size()), mesh.start ? 1U : 0U};
+  append(bytes, header.data(), header.size());
   const Pose start = mesh.start.value_or(Pose{});
   append(bytes, start.position.data(), 3);
   append(bytes, &start.yaw, 1);
@@ -77,9 +78,9 @@ std::optional<WorldMesh> readCache(const fs::path& path) {
   if (bytes.size() < sizeof(checksum)) return std::nullopt;
   const std::string content = bytes.substr(0, bytes.size() - sizeof(checksum));
   std::memcpy(&checksum, bytes.data() + content.size(), sizeof(checksum));
-  std::uint32_t header[4] = {};
+  std::array<std::uint32_t, 4> header{};
   std::string_view rest = content;
-  if (checksum != hashOf(content) || !take(rest, header, 4) || header[0] != kCacheMagic)
+  if (checksum != hashOf(content) || !take(rest, header.data(), 4) || header[0] != kCacheMagic)
     return std::nullopt;
   WorldMesh mesh;
   Pose start;

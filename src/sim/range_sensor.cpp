@@ -74,7 +74,7 @@ std::vector<Eigen::Vector3f> RangeSensor::disturbedPoints(const std::vector<floa
     if (dropout > 0.0F && uniformFrom(hashed(scan_key, 4 * k + 3)) < dropout) is_return = false;
     if (!is_return) continue;
     if (noise > 0.0F) range += noise * normalFrom(hashed(scan_key, 4 * k));
-    if (range >= range_min && range < range_max) points.push_back(range * (*directions_)[k]);
+    if (range >= range_min && range < range_max) points.emplace_back(range * (*directions_)[k]);
   }
   return points;
 }

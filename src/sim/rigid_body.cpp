@@ -13,7 +13,7 @@ using Construction = btRigidBody::btRigidBodyConstructionInfo;
 
 constexpr double kFriction = 0.3;  ///< Slides along a wall rather than catching on it.
 constexpr double kRestitution = 0.1;
-constexpr double kMeshMargin_m = 0.005;  ///< Contact begins this far from the mesh.
+constexpr double kMeshMargin = 0.005;  ///< Metres from the mesh at which contact begins.
 
 btVector3 toBullet(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
 Eigen::Vector3d toEigen(const btVector3& v) { return {v.x(), v.y(), v.z()}; }
@@ -61,8 +61,8 @@ struct RigidBody::Impl {
     solver.setConstraintRowSolverLowerLimit(solver.getScalarConstraintRowSolverLowerLimit());
     world.getSolverInfo().m_solverMode &= ~SOLVER_SIMD;
     world.setForceUpdateAllAabbs(false);
-    world.setGravity({0.0, 0.0, -kGravity_mps2});
-    mesh_shape.setMargin(kMeshMargin_m);
+    world.setGravity({0.0, 0.0, -kGravity});
+    mesh_shape.setMargin(kMeshMargin);
     const Eigen::Quaterniond turn(Eigen::AngleAxisd(start.yaw, Eigen::Vector3d::UnitZ()));
     body.setWorldTransform(btTransform(btQuaternion(turn.x(), turn.y(), turn.z(), turn.w()),
                                        toBullet(start.position)));

@@ -38,7 +38,7 @@ Rotors::Rotors(int count, double arm_m, double lag_s, double thrust_max_n)
 
 void Rotors::command(const Wrench& wanted) {
   // Pseudo-inverse of the mixing matrix: its rows are orthogonal for rotors evenly on a circle.
-  const double n = static_cast<double>(arms_.size());
+  const auto n = static_cast<double>(arms_.size());
   const double arm_squared = arms_[0].x_m * arms_[0].x_m + arms_[0].y_m * arms_[0].y_m;
   std::vector<double> tilt(arms_.size());
   std::vector<double> yaw(arms_.size());

@@ -16,8 +16,8 @@
 namespace spelunk::sim {
 namespace {
 
-constexpr double kEpisodeGap_s = 0.5;  ///< Parted for so long, the next contact counts anew.
-constexpr double kTimeTolerance_s = 1e-9;
+constexpr double kEpisodeGap = 0.5;      ///< Seconds parted after which a contact counts anew.
+constexpr double kTimeTolerance = 1e-9;  ///< Seconds.
 
 std::string textOf(const Pose& pose) {
   std::ostringstream text;
@@ -58,12 +58,12 @@ void requireFreeStart(const MeshScene& scene, const WorldMesh& mesh, const SimPa
   throw OutsideError(text.str());
 }
 
-/// Counts contacts: one episode until parted for kEpisodeGap_s.
+/// Counts contacts: one episode until parted for kEpisodeGap.
 class ContactLog {
  public:
   void add(double time_s, double step_s, bool is_in_contact) {
     if (!is_in_contact) return;
-    if (count_.episodes == 0 || time_s - last_contact_s_ > kEpisodeGap_s) ++count_.episodes;
+    if (count_.episodes == 0 || time_s - last_contact_s_ > kEpisodeGap) ++count_.episodes;
     count_.seconds += step_s;
     last_contact_s_ = time_s;
   }
@@ -109,7 +109,7 @@ struct Simulator::Impl {
         braking_mps2(robot.braking_deceleration_mps2),
         scene(mesh),
         airframe{params.mass_kg, params.inertia_kgm2, params.drag_coefficient,
-                 params.thrust_to_weight * params.mass_kg * kGravity_mps2},
+                 params.thrust_to_weight * params.mass_kg * kGravity},
         rotors(params.rotors, params.rotor_arm_m, params.rotor_lag_s, airframe.thrust_max_n),
         body(mesh, {params.mass_kg, params.inertia_kgm2, params.body_m}, start),
         battery(params, robot),
@@ -121,7 +121,7 @@ struct Simulator::Impl {
     TrajectoryPoint hover;
     hover.pose = start;
     reference = {hover};
-    rotors.spinUp(params.mass_kg * kGravity_mps2);
+    rotors.spinUp(params.mass_kg * kGravity);
   }
 
   [[nodiscard]] double timeAfter(std::int64_t step_count) const {
@@ -132,7 +132,7 @@ struct Simulator::Impl {
     const double step_s = 1.0 / params.physics_rate_hz;
     const double time_s = timeAfter(steps);
     const BodyState truth = body.state();
-    const TrajectoryPoint ahead = stateAt(reference, time_s + kAccelerationPreview_s);
+    const TrajectoryPoint ahead = stateAt(reference, time_s + kAccelerationPreview);
     rotors.command(battery.isEmpty()
                        ? Wrench{}
                        : computeWrench(airframe, odometry.estimate(), stateAt(reference, time_s),
@@ -148,7 +148,7 @@ struct Simulator::Impl {
   void takeDueScans(std::vector<SimulatedScan>& scans) {
     const double time_s = timeAfter(steps);
     for (RangeSensor& sensor : sensors) {
-      if (sensor.nextScanTime() > time_s + kTimeTolerance_s) continue;
+      if (sensor.nextScanTime() > time_s + kTimeTolerance) continue;
       scans.push_back(
           sensor.scan(scene, toIsometry(body.state()), toIsometry(odometry.measurement()), time_s));
     }
@@ -193,7 +193,7 @@ std::vector<SimulatedScan> Simulator::advanceTo(double time_s) {
   require(std::isfinite(time_s), "Simulator::advanceTo: time is not finite");
   std::vector<SimulatedScan> scans;
   impl_->takeDueScans(scans);
-  while (impl_->timeAfter(impl_->steps + 1) <= time_s + kTimeTolerance_s) {
+  while (impl_->timeAfter(impl_->steps + 1) <= time_s + kTimeTolerance) {
     impl_->stepOnce();
     impl_->takeDueScans(scans);
   }

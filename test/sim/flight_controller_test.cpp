@@ -15,7 +15,7 @@ TrajectoryPoint hover() { return {}; }
 
 TEST(FlightController, HoversAtWeight) {
   const Wrench wrench = computeWrench(kAirframe, {}, hover(), Vector3d::Zero());
-  EXPECT_NEAR(wrench.thrust_n, 2.0 * kGravity_mps2, 1e-12);
+  EXPECT_NEAR(wrench.thrust_n, 2.0 * kGravity, 1e-12);
   EXPECT_LT(wrench.torque_nm.norm(), 1e-12);
 }
 
@@ -53,7 +53,7 @@ TEST(FlightController, FarReferenceAsksForBoundedTilt) {
   const Wrench a = computeWrench(kAirframe, {}, near, Vector3d::Zero());
   const Wrench b = computeWrench(kAirframe, {}, far, Vector3d::Zero());
   EXPECT_TRUE(a.torque_nm.isApprox(b.torque_nm, 1e-9));
-  EXPECT_GT(b.thrust_n, 0.3 * 2.0 * kGravity_mps2);
+  EXPECT_GT(b.thrust_n, 0.3 * 2.0 * kGravity);
 }
 
 TEST(BrakingTrajectory, ComesToRestWithConstantDeceleration) {

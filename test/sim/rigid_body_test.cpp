@@ -9,7 +9,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kStep_s = 0.0025;
+constexpr double kStep = 0.0025;
 const RigidBody::Shape kShape{2.0, {0.03, 0.03, 0.05}, {0.6, 0.6, 0.2}};
 
 RigidBody bodyAt(const Vector3d& position) {
@@ -18,23 +18,23 @@ RigidBody bodyAt(const Vector3d& position) {
 
 TEST(RigidBody, FallsWithGravity) {
   RigidBody body = bodyAt({0, 0, 8});
-  for (int k = 0; k < 400; ++k) body.step(kStep_s, {}, Vector3d::Zero());
-  EXPECT_NEAR(body.state().velocity.z(), -kGravity_mps2, 1e-9);
-  EXPECT_NEAR(body.state().position.z(), 8.0 - 0.5 * kGravity_mps2, 0.02);  // Euler's steps
+  for (int k = 0; k < 400; ++k) body.step(kStep, {}, Vector3d::Zero());
+  EXPECT_NEAR(body.state().velocity.z(), -kGravity, 1e-9);
+  EXPECT_NEAR(body.state().position.z(), 8.0 - 0.5 * kGravity, 0.02);  // Euler's steps
   EXPECT_FALSE(body.isInContact());
 }
 
 TEST(RigidBody, TorqueTurnsByItsInertia) {
   RigidBody body = bodyAt({0, 0, 5});
-  const double weight = kShape.mass_kg * kGravity_mps2;
-  for (int k = 0; k < 100; ++k) body.step(kStep_s, {weight, {0.0, 0.0, 0.02}}, Vector3d::Zero());
+  const double weight = kShape.mass_kg * kGravity;
+  for (int k = 0; k < 100; ++k) body.step(kStep, {weight, {0.0, 0.0, 0.02}}, Vector3d::Zero());
   EXPECT_NEAR(body.state().angular_velocity.z(), 0.25 * 0.02 / 0.05, 1e-6);
   EXPECT_NEAR(body.state().position.z(), 5.0, 1e-6);
 }
 
 TEST(RigidBody, RestsOnTheFloor) {
   RigidBody body = bodyAt({0.3, -0.2, 0.3});
-  for (int k = 0; k < 800; ++k) body.step(kStep_s, {}, Vector3d::Zero());
+  for (int k = 0; k < 800; ++k) body.step(kStep, {}, Vector3d::Zero());
   EXPECT_TRUE(body.isInContact());
   EXPECT_NEAR(body.state().position.z(), 0.1, 0.02);
   EXPECT_LT(body.state().velocity.norm(), 0.02);
@@ -42,10 +42,10 @@ TEST(RigidBody, RestsOnTheFloor) {
 
 TEST(RigidBody, WallStopsIt) {
   RigidBody body = bodyAt({9.0, 0, 5});
-  const double weight = kShape.mass_kg * kGravity_mps2;
+  const double weight = kShape.mass_kg * kGravity;
   bool has_touched = false;
   for (int k = 0; k < 800; ++k) {
-    body.step(kStep_s, {weight, Vector3d::Zero()}, {6.0, 0.0, 0.0});
+    body.step(kStep, {weight, Vector3d::Zero()}, {6.0, 0.0, 0.0});
     has_touched = has_touched || body.isInContact();
     EXPECT_LT(body.state().position.x(), 9.8);
   }
@@ -54,8 +54,8 @@ TEST(RigidBody, WallStopsIt) {
 
 TEST(RigidBody, OuterForceAccelerates) {
   RigidBody body = bodyAt({0, 0, 5});
-  const double weight = kShape.mass_kg * kGravity_mps2;
-  for (int k = 0; k < 40; ++k) body.step(kStep_s, {weight, Vector3d::Zero()}, {1.0, 0.0, 0.0});
+  const double weight = kShape.mass_kg * kGravity;
+  for (int k = 0; k < 40; ++k) body.step(kStep, {weight, Vector3d::Zero()}, {1.0, 0.0, 0.0});
   EXPECT_NEAR(body.state().velocity.x(), 0.1 * 1.0 / 2.0, 1e-9);
 }
 

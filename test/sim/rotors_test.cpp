@@ -10,14 +10,14 @@
 namespace spelunk::sim {
 namespace {
 
-constexpr double kLong_s = 100.0;
+constexpr double kLong = 100.0;
 
 class AnyRotorCount : public testing::TestWithParam<int> {};
 
 TEST_P(AnyRotorCount, MakesTheWantedWrench) {
   Rotors rotors(GetParam(), 0.3, 0.05, 80.0);
   rotors.command({35.0, {0.8, -0.5, 0.1}});
-  rotors.advance(kLong_s);
+  rotors.advance(kLong);
   EXPECT_NEAR(rotors.wrench().thrust_n, 35.0, 1e-9);
   EXPECT_TRUE(rotors.wrench().torque_nm.isApprox(Eigen::Vector3d(0.8, -0.5, 0.1), 1e-9))
       << rotors.wrench().torque_nm.transpose();

@@ -8,7 +8,7 @@
 
 namespace spelunk::sim {
 
-inline constexpr double kGravity_mps2 = 9.81;
+inline constexpr double kGravity = 9.81;  ///< m/s^2
 
 /// What the controller knows of the vehicle it flies.
 struct Airframe {
@@ -26,14 +26,14 @@ struct BodyState {
   Eigen::Vector3d angular_velocity = Eigen::Vector3d::Zero();       ///< Base frame, rad/s.
 };
 
-/// How far ahead of now the reference's acceleration is asked for: the attitude needs about that
-/// long to turn the thrust.
-inline constexpr double kAccelerationPreview_s = 0.16;
+/// How far ahead of now, seconds, the reference's acceleration is asked for: the attitude needs
+/// about that long to turn the thrust.
+inline constexpr double kAccelerationPreview = 0.16;
 
 /// Thrust and torque that bring `state` to `reference`: a position loop that asks for a force and
 /// an attitude loop on SO(3) that turns the thrust there. Errors and tilt are limited so that a far
 /// reference makes the robot fly there, not tumble. `acceleration_ahead` is the reference's
-/// acceleration kAccelerationPreview_s from now.
+/// acceleration kAccelerationPreview from now.
 ///
 /// T. Lee, M. Leok, N. H. McClamroch, "Geometric tracking control of a quadrotor UAV on SE(3)",
 /// CDC 2010, section IV.
