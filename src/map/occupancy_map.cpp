@@ -15,10 +15,12 @@ namespace {
 
 constexpr double kFaceTolerance = 1e-4;  // a box does not touch what it overlaps by less, metres
 
-bool isKeyable(const Eigen::Vector3f& point, double inverse_resolution) {
-  const VoxelIndex index = voxelOf(point.cast<double>(), inverse_resolution);
-  constexpr int kLimit = kKeyOffset - kBlockSide;  // rounding may lead a ray one voxel farther
-  return (index.array() >= -kLimit).all() && (index.array() < kLimit).all();
+/// Whether OctoMap has keys for the point and a block around it: rounding may lead a ray one voxel
+/// too far.
+bool isKeyable(const Eigen::Vector3d& point, double resolution_m) {
+  const double limit = (kKeyOffset - kBlockSide) * resolution_m;
+  return std::fabs(point.x()) < limit && std::fabs(point.y()) < limit &&
+         std::fabs(point.z()) < limit;
 }
 
 }  // namespace
@@ -47,26 +49,25 @@ struct OccupancyMap::Impl {
 std::vector<Eigen::Vector3f> OccupancyMap::Impl::usablePoints(const Scan& scan,
                                                               const AxisAlignedBox& robot_body,
                                                               MapUpdate& update) const {
-  const double inverse_resolution = 1.0 / params.resolution_m;
+  const Eigen::Matrix3d R_world_sensor = scan.T_world_sensor.linear();
+  const Eigen::Vector3d origin = scan.T_world_sensor.translation();
+  const double near_squared = params.range_min_m * params.range_min_m;
   std::vector<Eigen::Vector3f> usable;
   usable.reserve(scan.points.size());
   for (const Eigen::Vector3f& point : scan.points) {
     const Eigen::Vector3d in_sensor = point.cast<double>();
-    if (!in_sensor.allFinite()) {
+    const double squared = in_sensor.squaredNorm();  // of floats: cannot overflow
+    const Eigen::Vector3d in_world = R_world_sensor * in_sensor + origin;
+    if (!std::isfinite(squared))
       ++update.dropped_not_finite;
-      continue;
-    }
-    const double range = in_sensor.norm();
-    const Eigen::Vector3d in_world = scan.T_world_sensor * in_sensor;
-    const Eigen::Vector3f rounded = in_world.cast<float>();
-    if (range < params.range_min_m || range == 0.0)
+    else if (squared < near_squared || squared == 0.0)
       ++update.dropped_near;
     else if (robot_body.contains(in_world))
       ++update.dropped_self;
-    else if (!isKeyable(rounded, inverse_resolution))
+    else if (!isKeyable(in_world, params.resolution_m))
       ++update.dropped_far;
     else
-      usable.push_back(rounded);
+      usable.push_back(in_world.cast<float>());
   }
   return usable;
 }
@@ -99,7 +100,7 @@ MapUpdate OccupancyMap::insert(const Scan& scan, const AxisAlignedBox& robot_bod
   update.points = static_cast<int>(scan.points.size());
   std::vector<Eigen::Vector3f> points = impl_->usablePoints(scan, robot_body, update);
   const Eigen::Vector3f origin = scan.T_world_sensor.translation().cast<float>();
-  if (!isKeyable(origin, 1.0 / impl_->params.resolution_m)) {
+  if (!isKeyable(scan.T_world_sensor.translation(), impl_->params.resolution_m)) {
     update.dropped_far += static_cast<int>(points.size());
     points.clear();
   }

@@ -98,15 +98,22 @@ void ScanTracer::markFree(const Eigen::Vector3f& end, ScanMarks& marks) const {
   AxisWalk z = walk(2);
   FreeMarker marker(marks, origin_key_);
   marker.mark(origin_key_);
-  const auto advance = [](AxisWalk& axis, PackedKey& key) {
+  PackedKey key = origin_key_;
+  const auto advance = [&key](AxisWalk& axis) {
     key += axis.step;
     axis.next_border += axis.border_spacing;
   };
-  for (PackedKey key = origin_key_;;) {
-    if (x.next_border < y.next_border)
-      advance(x.next_border < z.next_border ? x : z, key);
-    else
-      advance(y.next_border < z.next_border ? y : z, key);
+  for (;;) {
+    if (x.next_border < y.next_border) {
+      if (x.next_border < z.next_border)
+        advance(x);
+      else
+        advance(z);
+    } else if (y.next_border < z.next_border) {
+      advance(y);
+    } else {
+      advance(z);
+    }
     if (key == end_key) return;
     // Rounding can lead the walk past the end's voxel: OctoMap stops at the ray's length.
     if (std::min(std::min(x.next_border, y.next_border), z.next_border) > length) return;

@@ -23,11 +23,13 @@ class ScanMarks {
   /// Index of the block around a voxel, added if new.
   std::size_t touch(PackedKey voxel) {
     const PackedKey key = voxel & ~kInBlockMask;
+    if (last_ < blocks_.size() && blocks_[last_].key == key) return last_;
     const std::uint32_t found = table_.find(key);
-    if (found != KeyTable::kAbsent) return found;
-    table_.insert(key, static_cast<std::uint32_t>(blocks_.size()));
+    if (found != KeyTable::kAbsent) return last_ = found;
+    last_ = blocks_.size();
+    table_.insert(key, static_cast<std::uint32_t>(last_));
     blocks_.push_back({key, {}, {}});
-    return blocks_.size() - 1;
+    return last_;
   }
 
   /// Marks a hit voxel; false if it was marked before.
@@ -44,6 +46,7 @@ class ScanMarks {
 
  private:
   std::vector<Block> blocks_;
+  std::size_t last_ = 0;  ///< Touched last: neighbours in a scan often share it.
   KeyTable table_{12};
 };
 

@@ -111,7 +111,7 @@ void TemplateRays::addRay(const Eigen::Vector3d& direction, double range_voxels)
     step[axis] = static_cast<std::int16_t>(step[axis] + sign[axis]);
     steps_.push_back(step);
   }
-  rays_.push_back({begin, static_cast<std::uint32_t>(steps_.size())});
+  rays_.push_back({begin, static_cast<std::uint32_t>(steps_.size()), step});
 }
 
 }  // namespace spelunk::map

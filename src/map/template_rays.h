@@ -18,6 +18,7 @@ class TemplateRays {
   struct Ray {
     std::uint32_t begin;
     std::uint32_t end;
+    Step last;  ///< The step before `end`.
   };
   /// Rays of one heading: `count` rays of `rays()` from `first` on, around its end.
   struct Heading {

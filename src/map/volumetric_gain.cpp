@@ -151,15 +151,18 @@ void GainEvaluator::Impl::countSensor(std::size_t sensor, const LocalWindow& win
   for (std::size_t i = 0; i < heading.count; ++i) {
     const TemplateRays::Ray& ray = rays.rays()[number];
     if (++number == rays.rays().size()) number = 0;
-    if (ray.begin == ray.end) continue;
-    const TemplateRays::Step* begin = rays.steps().data() + ray.begin;
-    const TemplateRays::Step* end = rays.steps().data() + ray.end;
+    std::size_t count = ray.end - ray.begin;
     // A ray leaves a box once: all of it is inside, or all from some step on is outside.
-    if (!reachable.contains(end[-1]))
-      end = std::partition_point(
-          begin, end, [&](const TemplateRays::Step& step) { return reachable.contains(step); });
+    if (!reachable.contains(ray.last)) {
+      const TemplateRays::Step* begin = rays.steps().data() + ray.begin;
+      count = static_cast<std::size_t>(
+          std::partition_point(begin, begin + count,
+                               [&](const TemplateRays::Step& step) {
+                                 return reachable.contains(step);
+                               }) -
+          begin);
+    }
     const std::int32_t* cells = offsets.sensors[sensor].data() + ray.begin;
-    const auto count = static_cast<std::size_t>(end - begin);
     if (seen == nullptr)
       countRay(window.cells().data() + start_cell, cells, count, gain);
     else

@@ -27,10 +27,17 @@ class LocalWindow {
 
   /// Outside the window: unknown.
   [[nodiscard]] Occupancy at(const VoxelIndex& index) const {
-    const VoxelIndex local = index - origin_;
-    if ((local.array() < 0).any() || (local.array() >= size_.array()).any())
-      return Occupancy::kUnknown;
-    return static_cast<Occupancy>(cells_[offsetOf(local)]);
+    // Unsigned, so that one comparison an axis covers both sides and nothing can overflow.
+    const auto local = [&](int axis) {
+      return static_cast<unsigned>(index(axis)) - static_cast<unsigned>(origin_(axis));
+    };
+    const unsigned x = local(0);
+    const unsigned y = local(1);
+    const unsigned z = local(2);
+    const auto size = [&](int axis) { return static_cast<unsigned>(size_(axis)); };
+    if (x >= size(0) || y >= size(1) || z >= size(2)) return Occupancy::kUnknown;
+    return static_cast<Occupancy>(
+        cells_[x + std::size_t{size(0)} * (y + std::size_t{size(1)} * z)]);
   }
   [[nodiscard]] Occupancy at(const Eigen::Vector3d& point) const { return at(indexOf(point)); }
 
