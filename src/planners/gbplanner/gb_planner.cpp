@@ -90,14 +90,25 @@ struct GbPlanner::Search {
         graph::shortestPaths(planner.global_.graph(), current).distanceTo(GlobalGraph::home());
   }
 
-  void planLocally() {
+  void planLocally(const GbPlannerParams& params) {
     const bool flies_on = previous && previous->kind == PathKind::kLocal &&
                           request.last_outcome == PathOutcome::kReplaced;
     LocalContext context{planner.tried_, std::nullopt,
                          std::isfinite(way_home_m) ? way_home_m : 0.0};
     if (flies_on) context.previous_target = previous->target;
-    local = gbplanner::planLocally(request, view, root, context, planner.robot_, planner.params_,
-                                   result.stats);
+    local =
+        gbplanner::planLocally(request, view, root, context, planner.robot_, params, result.stats);
+  }
+
+  /// Before anything is called explored: a denser graph, and less gain is enough.
+  void planLocallyOnceMore() {
+    constexpr int kDenser = 5;
+    constexpr double kShareOfThreshold = 0.25;
+    GbPlannerParams closer = planner.params_;
+    closer.max_vertices *= kDenser;
+    closer.max_edges *= kDenser;
+    closer.gain_threshold_m3 *= kShareOfThreshold;
+    planLocally(closer);
   }
 
   /// Alg. 4, and the periodic re-evaluation of frontiers within the local box.
@@ -139,21 +150,39 @@ struct GbPlanner::Search {
         "local path, " + std::to_string(std::lround(local.best_gain_m3)) + " m3 expected along it";
   }
 
-  void reposition() {
+  /// Alg. 3.
+  GlobalPlan planGlobally() {
     const Stopwatch watch;
-    closeFrontiersHere();
     const GlobalQuery query{current, request.remaining_s, planner.robot_.speed_max_mps,
                             [this](const Eigen::Vector3d& at) {
                               return gainAnywhere(request, planner.params_, planner.evaluator_, at,
                                                   request.pose.yaw);
                             }};
-    const GlobalPlan plan =
-        planGlobally(planner.global_, query, view.globalSpace(), planner.tried_, planner.params_);
+    GlobalPlan plan = gbplanner::planGlobally(planner.global_, query, view.globalSpace(),
+                                              planner.tried_, planner.params_);
     result.stats.global_ms += watch.milliseconds();
-    if (plan.path.empty()) return reportNothingLeft(plan);
+    return plan;
+  }
+
+  void reposition(const GlobalPlan& plan) {
     finish(improved(fromRoot(plan.path), view.globalSpace()), PathKind::kReposition);
     result.reason = "reposition to a frontier of " + std::to_string(std::lround(plan.gain_m3)) +
                     " m3, " + std::to_string(std::lround(lengthOf(result.path))) + " m away";
+  }
+
+  /// The local planner; on local completion the global one; if that has nothing either, both once
+  /// more, looking closer.
+  void choose() {
+    if (!local.best.empty()) return followLocalPath();
+    closeFrontiersHere();
+    GlobalPlan plan = planGlobally();
+    if (!plan.path.empty()) return reposition(plan);
+    planLocallyOnceMore();
+    extendGlobalGraph();
+    if (!local.best.empty()) return followLocalPath();
+    plan = planGlobally();
+    if (!plan.path.empty()) return reposition(plan);
+    reportNothingLeft(plan);
   }
 
   void goHome() {
@@ -267,13 +296,9 @@ PlanResult GbPlanner::doPlan(const PlanRequest& request) {
   search.root = *start.root;
   search.noteOutcome();
   search.joinGlobalGraph();
-  search.planLocally();
+  search.planLocally(params_);
   search.extendGlobalGraph();
-  if (search.local.best.empty()) {
-    search.reposition();
-  } else {
-    search.followLocalPath();
-  }
+  search.choose();
   search.fillStats();
   search.result.stats.total_ms = watch.milliseconds();
   local_layer_ = search.localLayer();

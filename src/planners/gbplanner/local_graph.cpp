@@ -85,7 +85,8 @@ LocalGraph buildLocalGraph(const Eigen::Vector3d& root, const FreeSampler& sampl
   LocalGraph local;
   local.root = local.graph.addVertex(root);
   Expansion expansion{local, space, roomy, params, stats};
-  while (!expansion.isFull() && stats.samples < budget.iterations) {
+  const int samples_max = stats.samples + budget.iterations;
+  while (!expansion.isFull() && stats.samples < samples_max) {
     if (stats.samples % kSamplesBetweenClockReads == 0 &&
         watch.milliseconds() > budget.seconds * 1e3) {
       break;
