@@ -1,0 +1,207 @@
+#include <gtest/gtest.h>
+#include <sensor_msgs/PointField.h>
+
+#include <boost/make_shared.hpp>
+
+#include <cmath>
+#include <cstring>
+#include <limits>
+
+#include "spelunk/ros/cloud_filter.h"
+#include "spelunk/ros/pending_clouds.h"
+
+namespace spelunk::bridge {
+namespace {
+
+using Points = std::vector<Eigen::Vector3f>;
+
+sensor_msgs::PointCloud2 cloudOf(const Points& points) {
+  return toMsg(points, "lidar", ros::Time(10.0));
+}
+
+/// Doubles in the order z, x, y behind four bytes of something else, two rows with padding.
+sensor_msgs::PointCloud2 oddCloud() {
+  sensor_msgs::PointCloud2 cloud;
+  cloud.header.frame_id = "lidar";
+  cloud.height = 2;
+  cloud.width = 1;
+  cloud.point_step = 28;
+  cloud.row_step = 32;
+  const char* names[] = {"z", "x", "y"};
+  for (std::uint32_t i = 0; i < 3; ++i) {
+    sensor_msgs::PointField field;
+    field.name = names[i];
+    field.offset = 4 + 8 * i;
+    field.datatype = sensor_msgs::PointField::FLOAT64;
+    field.count = 1;
+    cloud.fields.push_back(field);
+  }
+  cloud.data.resize(60);
+  for (std::uint32_t row = 0; row < 2; ++row)
+    for (std::uint32_t i = 0; i < 3; ++i) {
+      const double value = 10.0 * row + i;  // z, x, y = 0, 1, 2
+      std::memcpy(&cloud.data[row * 32 + 4 + 8 * i], &value, sizeof(value));
+    }
+  return cloud;
+}
+
+TEST(CloudPoints, SurviveTheWayThereAndBack) {
+  const Points points{{1, 2, 3}, {-4, 5, 6}};
+  const auto back = pointsFromMsg(cloudOf(points));
+  ASSERT_TRUE(back.value);
+  EXPECT_EQ(*back.value, points);
+}
+
+TEST(CloudPoints, ReadsDoublesAtAnyOffsetAndPaddedRows) {
+  const auto points = pointsFromMsg(oddCloud());
+  ASSERT_TRUE(points.value) << points.problem;
+  EXPECT_EQ(*points.value, (Points{{1, 2, 0}, {11, 12, 10}}));
+}
+
+TEST(CloudPoints, LeavesOutWhatIsNotFinite) {
+  const float nan = std::numeric_limits<float>::quiet_NaN();
+  const float inf = std::numeric_limits<float>::infinity();
+  const auto points = pointsFromMsg(cloudOf({{nan, 0, 0}, {1, 2, 3}, {0, inf, 0}}));
+  ASSERT_TRUE(points.value);
+  EXPECT_EQ(*points.value, (Points{{1, 2, 3}}));
+}
+
+TEST(CloudPoints, RefusesCloudsThatHoldNothing) {
+  const float nan = std::numeric_limits<float>::quiet_NaN();
+  EXPECT_NE(pointsFromMsg(cloudOf({})).problem.find("no points"), std::string::npos);
+  EXPECT_NE(pointsFromMsg(cloudOf({{nan, nan, nan}})).problem.find("NaN"), std::string::npos);
+}
+
+TEST(CloudPoints, RefusesLayoutsThatDoNotFit) {
+  auto cloud = cloudOf({{1, 2, 3}, {4, 5, 6}});
+  auto broken = cloud;
+  broken.fields[1].name = "intensity";
+  EXPECT_NE(pointsFromMsg(broken).problem.find("'y'"), std::string::npos);
+  broken = cloud;
+  broken.fields[2].datatype = sensor_msgs::PointField::INT16;
+  EXPECT_NE(pointsFromMsg(broken).problem.find("'z'"), std::string::npos);
+  broken = cloud;
+  broken.fields[2].offset = 10;
+  EXPECT_NE(pointsFromMsg(broken).problem.find("point_step"), std::string::npos);
+  broken = cloud;
+  broken.data.pop_back();
+  EXPECT_NE(pointsFromMsg(broken).problem.find("more points"), std::string::npos);
+  broken = cloud;
+  broken.width = 4000000000U;
+  EXPECT_FALSE(pointsFromMsg(broken).value);
+  broken = cloud;
+  broken.is_bigendian = true;
+  EXPECT_FALSE(pointsFromMsg(broken).value);
+}
+
+/// A dense plane and one lonely speck of dust.
+Points planeAndSpeck() {
+  Points points;
+  for (int i = 0; i < 20; ++i)
+    for (int j = 0; j < 20; ++j)
+      points.emplace_back(0.05F * static_cast<float>(i), 0.05F * static_cast<float>(j), 0.0F);
+  points.emplace_back(5.0F, 5.0F, 5.0F);
+  return points;
+}
+
+bool holdsSpeck(const Points& points) {
+  for (const Eigen::Vector3f& point : points)
+    if (point.z() > 1.0F) return true;
+  return false;
+}
+
+TEST(CloudFilter, IsOffByDefault) {
+  EXPECT_EQ(filtered(planeAndSpeck(), CloudParams()), planeAndSpeck());
+}
+
+TEST(CloudFilter, BothOutlierFiltersRemoveTheSpeckAndKeepThePlane) {
+  for (const char* name : {"statistical", "radius"}) {
+    CloudParams params;
+    params.outlier_filter = name;
+    params.outlier_neighbours = 3;
+    const Points points = filtered(planeAndSpeck(), params);
+    EXPECT_FALSE(holdsSpeck(points)) << name;
+    EXPECT_GT(points.size(), 380U) << name;
+  }
+}
+
+TEST(CloudFilter, VoxelGridLeavesOnePointAVoxel) {
+  CloudParams params;
+  params.voxel_size_m = 0.5;
+  const Points points = filtered(planeAndSpeck(), params);
+  EXPECT_GE(points.size(), 5U);
+  EXPECT_LE(points.size(), 10U);
+  EXPECT_TRUE(holdsSpeck(points));
+}
+
+TEST(CloudParams, NamesAnUnknownFilter) {
+  CloudParams params;
+  EXPECT_TRUE(params.problems().empty());
+  params.outlier_filter = "median";
+  ASSERT_EQ(params.problems().size(), 1U);
+  EXPECT_NE(params.problems()[0].find("'median'"), std::string::npos);
+}
+
+class PendingCloudsTest : public ::testing::Test {
+ protected:
+  static sensor_msgs::PointCloud2::ConstPtr at(double stamp_s, const std::string& frame = "lidar") {
+    sensor_msgs::PointCloud2 cloud = cloudOf({{1, 2, 3}});
+    cloud.header.frame_id = frame;
+    cloud.header.stamp = ros::Time(stamp_s);
+    return boost::make_shared<const sensor_msgs::PointCloud2>(cloud);
+  }
+
+  TransformLookup lookup_ = [this](const std::string&, const ros::Time& stamp) {
+    if (stamp.toSec() > known_until_s_) return FromMsg<Eigen::Isometry3d>{std::nullopt, "later"};
+    return FromMsg<Eigen::Isometry3d>{Eigen::Isometry3d::Identity(), ""};
+  };
+  double known_until_s_ = 1000.0;
+  PendingClouds pending_{CloudParams()};
+};
+
+TEST_F(PendingCloudsTest, HandsOverWhatHasATransform) {
+  EXPECT_EQ(pending_.push(at(10.0), ros::Time(10.1)), "");
+  const auto items = pending_.take(lookup_, ros::Time(10.1));
+  ASSERT_EQ(items.size(), 1U);
+  EXPECT_EQ(items[0].problem, "");
+  EXPECT_EQ(pending_.size(), 0U);
+}
+
+TEST_F(PendingCloudsTest, WaitsForATransformAndThenGivesUp) {
+  known_until_s_ = 9.0;
+  EXPECT_EQ(pending_.push(at(10.0), ros::Time(10.0)), "");
+  EXPECT_TRUE(pending_.take(lookup_, ros::Time(10.2)).empty());
+  EXPECT_EQ(pending_.size(), 1U);
+  const auto items = pending_.take(lookup_, ros::Time(10.6));
+  ASSERT_EQ(items.size(), 1U);
+  EXPECT_NE(items[0].problem.find("'lidar'"), std::string::npos);
+  EXPECT_NE(items[0].problem.find("later"), std::string::npos);
+}
+
+TEST_F(PendingCloudsTest, KeepsTheOrderOfClouds) {
+  for (const double stamp : {10.0, 10.1, 10.2})
+    EXPECT_EQ(pending_.push(at(stamp), ros::Time(10.2)), "");
+  known_until_s_ = 10.15;
+  EXPECT_EQ(pending_.take(lookup_, ros::Time(10.2)).size(), 2U);
+  known_until_s_ = 11.0;
+  const auto rest = pending_.take(lookup_, ros::Time(10.3));
+  ASSERT_EQ(rest.size(), 1U);
+  EXPECT_EQ(rest[0].cloud->header.stamp, ros::Time(10.2));
+}
+
+TEST_F(PendingCloudsTest, RefusesTheFutureTheLongPastAndNamelessFrames) {
+  EXPECT_NE(pending_.push(at(12.0), ros::Time(10.0)).find("future"), std::string::npos);
+  EXPECT_NE(pending_.push(at(2.0), ros::Time(10.0)).find("old"), std::string::npos);
+  EXPECT_NE(pending_.push(at(10.0, ""), ros::Time(10.0)).find("frame_id"), std::string::npos);
+  EXPECT_EQ(pending_.size(), 0U);
+}
+
+TEST_F(PendingCloudsTest, NeverGrowsBeyondItsCapacity) {
+  known_until_s_ = 0.0;
+  for (std::size_t i = 0; i < 3 * PendingClouds::kCapacity; ++i)
+    EXPECT_EQ(pending_.push(at(10.0), ros::Time(10.0)), "");
+  EXPECT_EQ(pending_.size(), PendingClouds::kCapacity);
+}
+
+}  // namespace
+}  // namespace spelunk::bridge

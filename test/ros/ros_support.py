@@ -1,0 +1,123 @@
+"""What the tests of the nodes share: waiting for messages, and a made-up robot in a room."""
+
+import threading
+import time
+
+import numpy as np
+import rospy
+import tf2_ros
+from geometry_msgs.msg import TransformStamped
+from nav_msgs.msg import Odometry
+from sensor_msgs.msg import PointCloud2, PointField
+
+
+class Listener:
+    """Keeps the messages of a topic and waits for one that meets a condition."""
+
+    def __init__(self, topic, message_type):
+        self._condition = threading.Condition()
+        self.messages = []
+        self._subscriber = rospy.Subscriber(topic, message_type, self._take, queue_size=100)
+
+    def _take(self, message):
+        with self._condition:
+            self.messages.append(message)
+            self._condition.notify_all()
+
+    def count(self):
+        with self._condition:
+            return len(self.messages)
+
+    def latest(self):
+        with self._condition:
+            return self.messages[-1] if self.messages else None
+
+    def wait(self, accepts, timeout_s, since=0):
+        """The first message from number `since` on that `accepts`; None after `timeout_s` of wall
+        time."""
+        deadline = time.monotonic() + timeout_s
+        with self._condition:
+            seen = since
+            while True:
+                for message in self.messages[seen:]:
+                    if accepts(message):
+                        return message
+                seen = len(self.messages)
+                left = deadline - time.monotonic()
+                if left <= 0.0 or rospy.is_shutdown():
+                    return None
+                self._condition.wait(left)
+
+
+def cloud_message(points, frame, stamp):
+    """float32 x, y, z from an array of shape (n, 3), metres in `frame`."""
+    message = PointCloud2()
+    message.header.frame_id = frame
+    message.header.stamp = stamp
+    message.height = 1
+    message.width = len(points)
+    for axis, name in enumerate("xyz"):
+        message.fields.append(PointField(name, 4 * axis, PointField.FLOAT32, 1))
+    message.point_step = 12
+    message.row_step = 12 * len(points)
+    message.is_dense = False
+    message.data = np.asarray(points, dtype=np.float32).tobytes()
+    return message
+
+
+def room_hits(origin, half_size, columns=360, rows=16):
+    """Where the rays of a LiDAR at `origin` hit the walls of a box room around (0, 0, 0)."""
+    azimuth, elevation = np.meshgrid(np.linspace(-np.pi, np.pi, columns, endpoint=False),
+                                     np.radians(np.linspace(-45.0, 45.0, rows)))
+    directions = np.stack([np.cos(elevation) * np.cos(azimuth),
+                           np.cos(elevation) * np.sin(azimuth), np.sin(elevation)], axis=-1)
+    directions = directions.reshape(-1, 3)
+    with np.errstate(divide="ignore"):
+        ranges = np.where(directions > 0.0, half_size - origin, -half_size - origin) / directions
+    return directions * np.nanmin(np.where(ranges > 0.0, ranges, np.inf), axis=1)[:, None]
+
+
+class MadeUpRobot:
+    """A robot that hangs in a box room, as its driver would publish it. Each publish_... sends one
+    message at the current ROS time; tests change what is sent."""
+
+    HALF_SIZE = np.array([8.0, 6.0, 3.0])
+
+    def __init__(self):
+        self.position = np.zeros(3)
+        self._odometry = rospy.Publisher("odometry", Odometry, queue_size=10)
+        self._cloud = rospy.Publisher("pointcloud", PointCloud2, queue_size=10)
+        self._tf = tf2_ros.TransformBroadcaster()
+
+    def odometry(self):
+        message = Odometry()
+        message.header.stamp = rospy.Time.now()
+        message.header.frame_id = "world"
+        message.child_frame_id = "base_link"
+        message.pose.pose.position.x, message.pose.pose.position.y, \
+            message.pose.pose.position.z = self.position
+        message.pose.pose.orientation.w = 1.0
+        return message
+
+    def cloud(self):
+        return cloud_message(room_hits(self.position, self.HALF_SIZE), "lidar_16",
+                             rospy.Time.now())
+
+    def publish_tf(self):
+        transforms = []
+        for parent, child, offset in (("world", "base_link", self.position),
+                                      ("base_link", "lidar_16", np.zeros(3))):
+            transform = TransformStamped()
+            transform.header.stamp = rospy.Time.now()
+            transform.header.frame_id = parent
+            transform.child_frame_id = child
+            transform.transform.translation.x, transform.transform.translation.y, \
+                transform.transform.translation.z = offset
+            transform.transform.rotation.w = 1.0
+            transforms.append(transform)
+        self._tf.sendTransform(transforms)
+
+    def publish(self, odometry=None, cloud=None):
+        self.publish_tf()
+        self._odometry.publish(odometry or self.odometry())
+        self._cloud.publish(cloud or self.cloud())
