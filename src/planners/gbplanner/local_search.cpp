@@ -46,9 +46,7 @@ struct Search {
     const Stopwatch watch;
     view.prepareGains();
     for (const Polyline& path : paths) {
-      const double gain = view.gainAt(path.back(), headingAtEnd(path));
-      const bool is_roomy = view.roomySpace().at(path.back()) == Rejection::kNone;
-      plan.gains_m3.push_back(is_roomy ? gain : gain / params.tightness_cost);
+      plan.gains_m3.push_back(view.gainAt(path.back(), headingAtEnd(path)));
     }
     stats.gain_ms = watch.milliseconds();
   }

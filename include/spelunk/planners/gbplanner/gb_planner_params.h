@@ -30,7 +30,7 @@ struct GbPlannerParams {
   double opening_width_m = 1.2;
   Eigen::Vector3d safety_margin_m{0.1, 0.1, 0.3};
   double tightness_cost = 2.0;
-  double frontier_gain_m3 = 25.0;
+  double frontier_gain_m3 = 12.0;
   double frontier_spacing_m = 3.0;
   double cluster_distance_m = 2.0;
   double global_distance_weight = 0.02;
