@@ -6,9 +6,13 @@
 namespace spelunk::map {
 namespace {
 
-/// Lowest bits of eight bytes, as one byte.
-std::uint64_t gather(std::uint64_t bytes) {
-  return ((bytes & 0x0101010101010101u) * 0x0102040810204080u) >> 56;
+/// Every other bit of 32, from the lowest on, moved together.
+std::uint64_t everyOther(std::uint64_t bits) {
+  bits &= 0x55555555u;
+  bits = (bits | (bits >> 1)) & 0x33333333u;
+  bits = (bits | (bits >> 2)) & 0x0F0F0F0Fu;
+  bits = (bits | (bits >> 4)) & 0x00FF00FFu;
+  return (bits | (bits >> 8)) & 0x0000FFFFu;
 }
 
 /// Bits first..last of one word of a row, where the word starts at bit `start`.
@@ -26,19 +30,19 @@ BitGrid::BitGrid(const LocalWindow& window, Occupancy status)
                 static_cast<int>(Occupancy::kOccupied) == 2);
   words_.assign(
       row_words_ * static_cast<std::size_t>(size_.y()) * static_cast<std::size_t>(size_.z()), 0);
-  const int status_bit = status == Occupancy::kFree ? 0 : 1;
+  const std::size_t status_bit = status == Occupancy::kFree ? 0 : 1;
   const auto length = static_cast<std::size_t>(size_.x());
-  const std::uint8_t* cells = window.cells().data();
-  for (std::size_t row = 0; row < words_.size(); row += row_words_, cells += length) {
-    std::size_t x = 0;
-    for (; x + 8 <= length; x += 8) {
-      std::uint64_t bytes;
-      std::memcpy(&bytes, cells + x, sizeof(bytes));
-      words_[row + x / 64] |= gather(bytes >> status_bit) << (x & 63);
+  const std::uint8_t* packed = window.packedCells().data();
+  std::size_t cell = 0;
+  for (std::size_t row = 0; row < words_.size(); row += row_words_, cell += length)
+    for (std::size_t x = 0; x < length; x += 16) {
+      const std::size_t at = cell + x;
+      std::uint64_t pairs;
+      std::memcpy(&pairs, packed + at / 4, sizeof(pairs));
+      const std::uint64_t bits = everyOther(pairs >> (2 * (at % 4) + status_bit));
+      const std::size_t count = std::min<std::size_t>(16, length - x);
+      words_[row + x / 64] |= (bits & ((1u << count) - 1)) << (x % 64);
     }
-    for (; x < length; ++x)
-      words_[row + x / 64] |= static_cast<std::uint64_t>((cells[x] >> status_bit) & 1) << (x & 63);
-  }
 }
 
 bool BitGrid::isAnySet(const VoxelIndex& first, const VoxelIndex& last) const {

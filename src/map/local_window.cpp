@@ -20,11 +20,24 @@ constexpr std::array<std::uint64_t, 256> spreadTable() {
 }
 constexpr std::array<std::uint64_t, 256> kSpread = spreadTable();
 
+/// The same to every other bit.
+constexpr std::array<std::uint16_t, 256> spreadPairsTable() {
+  std::array<std::uint16_t, 256> table{};
+  for (unsigned byte = 0; byte < 256; ++byte)
+    for (unsigned bit = 0; bit < 8; ++bit)
+      if (((byte >> bit) & 1) != 0)
+        table[byte] = static_cast<std::uint16_t>(table[byte] | (1U << (2 * bit)));
+  return table;
+}
+constexpr std::array<std::uint16_t, 256> kSpreadPairs = spreadPairsTable();
+constexpr std::size_t kReadableBeyond = 8;
+
 /// Copies a block's voxels that lie in the window; known + occupied is the status.
 class BlockCopier {
  public:
-  BlockCopier(const VoxelIndex& origin, const VoxelIndex& size, std::uint8_t* cells)
-      : origin_(origin), size_(size), cells_(cells) {}
+  BlockCopier(const VoxelIndex& origin, const VoxelIndex& size, std::uint8_t* cells,
+              std::uint8_t* packed)
+      : origin_(origin), size_(size), cells_(cells), packed_(packed) {}
 
   void copy(const StatusBlock& block, const VoxelIndex& corner) {
     const VoxelIndex at = corner - origin_;
@@ -35,20 +48,30 @@ class BlockCopier {
       const std::uint64_t occupied = block.occupied[static_cast<std::size_t>(z)];
       if (known == 0) continue;
       for (int y = first.y(); y < end.y(); ++y) {
-        const std::uint64_t row =
-            kSpread[(known >> (8 * y)) & 0xFF] + kSpread[(occupied >> (8 * y)) & 0xFF];
-        std::uint8_t bytes[kBlockSide];
-        std::memcpy(bytes, &row, sizeof(bytes));
-        std::uint8_t* cells = cells_ + offsetOf(at.x() + first.x(), at.y() + y, at.z() + z);
-        if (end.x() - first.x() == kBlockSide)
-          std::memcpy(cells, bytes, kBlockSide);
-        else
-          std::copy(bytes + first.x(), bytes + end.x(), cells);
+        const std::size_t cell = offsetOf(at.x() + first.x(), at.y() + y, at.z() + z);
+        copyRow((known >> (8 * y)) & 0xFF, (occupied >> (8 * y)) & 0xFF, first.x(), end.x(), cell);
       }
     }
   }
 
  private:
+  /// Voxels first..end-1 of a row of eight, to `cell` and on.
+  void copyRow(std::uint64_t known, std::uint64_t occupied, int first, int end, std::size_t cell) {
+    const std::uint64_t row = kSpread[known] + kSpread[occupied];
+    std::uint8_t bytes[kBlockSide];
+    std::memcpy(bytes, &row, sizeof(bytes));
+    if (end - first == kBlockSide)
+      std::memcpy(cells_ + cell, bytes, kBlockSide);
+    else
+      std::copy(bytes + first, bytes + end, cells_ + cell);
+    const std::uint32_t pairs = static_cast<std::uint32_t>(kSpreadPairs[known]) +
+                                static_cast<std::uint32_t>(kSpreadPairs[occupied]);
+    const std::uint32_t kept = (pairs >> (2 * first)) & ((1U << (2 * (end - first))) - 1U);
+    std::uint32_t around = 0;
+    std::memcpy(&around, packed_ + cell / 4, sizeof(around));
+    around |= kept << (2 * (cell % 4));
+    std::memcpy(packed_ + cell / 4, &around, sizeof(around));
+  }
   [[nodiscard]] std::size_t offsetOf(int x, int y, int z) const {
     return static_cast<std::size_t>(x) +
            static_cast<std::size_t>(size_.x()) *
@@ -59,6 +82,7 @@ class BlockCopier {
   VoxelIndex origin_;
   VoxelIndex size_;
   std::uint8_t* cells_;
+  std::uint8_t* packed_;
 };
 
 void copyChunk(const StatusChunk& chunk, const VoxelIndex& first, const VoxelIndex& last,
@@ -83,7 +107,8 @@ LocalWindow::LocalWindow(const FrozenMap& map, const AxisAlignedBox& region)
   require(size.prod() < 2147483648.0, "LocalWindow: region has more than 2^31 voxels");
   size_ = last - origin_ + VoxelIndex::Ones();
   cells_.resize(static_cast<std::size_t>(size.prod()));
-  BlockCopier copier(origin_, size_, cells_.data());
+  packed_.resize(cells_.size() / 4 + 1 + kReadableBeyond);
+  BlockCopier copier(origin_, size_, cells_.data(), packed_.data());
   for (const auto& chunk : map.blocks().chunks) copyChunk(*chunk, origin_, last, copier);
 }
 

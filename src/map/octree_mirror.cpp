@@ -1,5 +1,8 @@
 #include "octree_mirror.h"
 
+#include <algorithm>
+#include <limits>
+
 namespace spelunk::map {
 namespace {
 
@@ -116,24 +119,35 @@ void OcTreeMirror::descend(octomap::OcTreeNode* node, bool is_new, unsigned dept
 
 void OcTreeMirror::fillCube(octomap::OcTreeNode* node, bool is_new, int first_voxel, int side,
                             const Source& source) {
-  if (side == 1) {
-    node->setLogOdds(source.values[static_cast<std::size_t>(first_voxel)]);
-    return;
-  }
   if (source.isUniform(first_voxel, side)) {
     collapse(node, source.values[static_cast<std::size_t>(first_voxel)]);
     return;
   }
+  // What was one pruned leaf gets all its children anew; the block knows their values.
+  if (!is_new && !nodeHasChildren(node)) {
+    fillChildren(node, first_voxel, side, {source.block, source.values, source.block.known});
+    return;
+  }
+  fillChildren(node, first_voxel, side, source);
+}
+
+void OcTreeMirror::fillChildren(octomap::OcTreeNode* node, int first_voxel, int side,
+                                const Source& source) {
   const int half = side / 2;
+  float highest = -std::numeric_limits<float>::max();
   for (unsigned child = 0; child < 8; ++child) {
     const int first = first_voxel + octantOffset(child, half);
-    if (!isAnySet(source.wanted, first, half)) continue;
-    bool is_child_new = is_new;
-    octomap::OcTreeNode* next = childFor(node, child, is_child_new);
-    is_new = false;
-    fillCube(next, is_child_new, first, half, source);
+    const bool is_new = !nodeChildExists(node, child);
+    const bool is_wanted = isAnySet(source.wanted, first, half);
+    if (is_new && !is_wanted) continue;
+    octomap::OcTreeNode* next = is_new ? createNodeChild(node, child) : getNodeChild(node, child);
+    if (is_wanted && half == 1)
+      next->setLogOdds(source.values[static_cast<std::size_t>(first)]);
+    else if (is_wanted)
+      fillCube(next, is_new, first, half, source);
+    highest = std::max(highest, next->getLogOdds());
   }
-  node->updateOccupancyChildren();
+  node->setLogOdds(highest);  // inner nodes hold the maximum of their children
 }
 
 void OcTreeMirror::collapse(octomap::OcTreeNode* node, float value) {

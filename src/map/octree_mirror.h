@@ -25,6 +25,7 @@ class OcTreeMirror : public octomap::OcTree {
   void descend(octomap::OcTreeNode* node, bool is_new, unsigned depth, const Source& source);
   void fillCube(octomap::OcTreeNode* node, bool is_new, int first_voxel, int side,
                 const Source& source);
+  void fillChildren(octomap::OcTreeNode* node, int first_voxel, int side, const Source& source);
   void collapse(octomap::OcTreeNode* node, float value);
   void finish(octomap::OcTreeNode* node);
 };

@@ -2,7 +2,6 @@
 
 #include <octomap/octomap_types.h>
 
-#include <algorithm>
 #include <limits>
 
 namespace spelunk::map {
@@ -31,26 +30,36 @@ AxisWalk walkOf(int axis, float direction, float origin, double resolution, int 
           sign > 0 ? unit : PackedKey{0} - unit};
 }
 
-/// Sets free bits along a walk; looks a block up only when the walk enters it.
-class FreeMarker {
- public:
-  FreeMarker(ScanMarks& marks, PackedKey first) : marks_(marks) { enter(first); }
-
-  void mark(PackedKey voxel) {
-    if ((voxel & ~kInBlockMask) != block_) enter(voxel);
-    words_[wordOf(voxel)] |= std::uint64_t{1} << bitOf(voxel);
+/// Marks the voxels from `key` up to the end as free. All state of the loop is local, so that it
+/// stays in registers.
+void markWalk(const AxisWalk& x, const AxisWalk& y, const AxisWalk& z, PackedKey key,
+              PackedKey end_key, double length, ScanMarks& marks) {
+  double next_x = x.next_border;
+  double next_y = y.next_border;
+  double next_z = z.next_border;
+  PackedKey block = ~PackedKey{0};
+  std::uint64_t* words = nullptr;
+  for (;;) {
+    if ((key & ~kInBlockMask) != block) {
+      block = key & ~kInBlockMask;
+      words = marks.block(marks.touch(key)).free.data();
+    }
+    words[wordOf(key)] |= std::uint64_t{1} << bitOf(key);
+    if (next_x < next_y && next_x < next_z) {
+      key += x.step;
+      next_x += x.border_spacing;
+    } else if (!(next_x < next_y) && next_y < next_z) {
+      key += y.step;
+      next_y += y.border_spacing;
+    } else {
+      key += z.step;
+      next_z += z.border_spacing;
+    }
+    if (key == end_key) return;
+    // Rounding can lead the walk past the end's voxel: OctoMap stops at the ray's length.
+    if (next_x > length && next_y > length && next_z > length) return;
   }
-
- private:
-  void enter(PackedKey voxel) {
-    block_ = voxel & ~kInBlockMask;
-    words_ = marks_.block(marks_.touch(voxel)).free.data();
-  }
-
-  ScanMarks& marks_;
-  PackedKey block_ = 0;
-  std::uint64_t* words_ = nullptr;
-};
+}
 
 }  // namespace
 
@@ -93,32 +102,7 @@ void ScanTracer::markFree(const Eigen::Vector3f& end, ScanMarks& marks) const {
     return walkOf(axis, direction(static_cast<unsigned>(axis)), origin_(axis), resolution_m_,
                   start(axis) + kKeyOffset);
   };
-  AxisWalk x = walk(0);
-  AxisWalk y = walk(1);
-  AxisWalk z = walk(2);
-  FreeMarker marker(marks, origin_key_);
-  marker.mark(origin_key_);
-  PackedKey key = origin_key_;
-  const auto advance = [&key](AxisWalk& axis) {
-    key += axis.step;
-    axis.next_border += axis.border_spacing;
-  };
-  for (;;) {
-    if (x.next_border < y.next_border) {
-      if (x.next_border < z.next_border)
-        advance(x);
-      else
-        advance(z);
-    } else if (y.next_border < z.next_border) {
-      advance(y);
-    } else {
-      advance(z);
-    }
-    if (key == end_key) return;
-    // Rounding can lead the walk past the end's voxel: OctoMap stops at the ray's length.
-    if (std::min(std::min(x.next_border, y.next_border), z.next_border) > length) return;
-    marker.mark(key);
-  }
+  markWalk(walk(0), walk(1), walk(2), origin_key_, end_key, length, marks);
 }
 
 }  // namespace spelunk::map

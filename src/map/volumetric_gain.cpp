@@ -76,12 +76,13 @@ class SeenCells {
   std::vector<std::size_t> touched_;
 };
 
-void countRay(const std::uint8_t* start, const std::int32_t* offsets, std::size_t count,
-              VolumetricGain& gain) {
+void countRay(const std::uint8_t* packed, std::size_t start, const std::int32_t* offsets,
+              std::size_t count, VolumetricGain& gain) {
   int unknown = 0;
   std::size_t i = 0;
   for (; i < count; ++i) {
-    const std::uint8_t cell = start[offsets[i]];
+    const std::size_t at = start + static_cast<std::size_t>(static_cast<std::int64_t>(offsets[i]));
+    const unsigned cell = (packed[at / 4] >> (2 * (at % 4))) & 3U;
     if (cell == kOccupiedCell) break;
     unknown += cell == kUnknownCell ? 1 : 0;
   }
@@ -155,16 +156,15 @@ void GainEvaluator::Impl::countSensor(std::size_t sensor, const LocalWindow& win
     // A ray leaves a box once: all of it is inside, or all from some step on is outside.
     if (!reachable.contains(ray.last)) {
       const TemplateRays::Step* begin = rays.steps().data() + ray.begin;
-      count = static_cast<std::size_t>(
-          std::partition_point(begin, begin + count,
-                               [&](const TemplateRays::Step& step) {
-                                 return reachable.contains(step);
-                               }) -
-          begin);
+      count = static_cast<std::size_t>(std::partition_point(begin, begin + count,
+                                                            [&](const TemplateRays::Step& step) {
+                                                              return reachable.contains(step);
+                                                            }) -
+                                       begin);
     }
     const std::int32_t* cells = offsets.sensors[sensor].data() + ray.begin;
     if (seen == nullptr)
-      countRay(window.cells().data() + start_cell, cells, count, gain);
+      countRay(window.packedCells().data(), start_cell, cells, count, gain);
     else
       countRayOnce(window.cells().data(), start_cell, cells, count, *seen, gain);
   }

@@ -36,8 +36,8 @@ class LocalWindow {
     const unsigned z = local(2);
     const auto size = [&](int axis) { return static_cast<unsigned>(size_(axis)); };
     if (x >= size(0) || y >= size(1) || z >= size(2)) return Occupancy::kUnknown;
-    return static_cast<Occupancy>(
-        cells_[x + std::size_t{size(0)} * (y + std::size_t{size(1)} * z)]);
+    const std::size_t cell = x + std::size_t{size(0)} * (y + std::size_t{size(1)} * z);
+    return static_cast<Occupancy>((packed_[cell / 4] >> (2 * (cell % 4))) & 3);
   }
   [[nodiscard]] Occupancy at(const Eigen::Vector3d& point) const { return at(indexOf(point)); }
 
@@ -47,6 +47,9 @@ class LocalWindow {
   [[nodiscard]] const VoxelIndex& origin() const { return origin_; }  ///< Index of cell (0, 0, 0).
   [[nodiscard]] const VoxelIndex& size() const { return size_; }
   [[nodiscard]] const std::vector<std::uint8_t>& cells() const { return cells_; }  ///< x fastest.
+  /// The same with two bits a voxel, the first in the lowest bits of a byte; eight bytes beyond the
+  /// last are readable. A quarter of the memory, so more of it stays in the caches.
+  [[nodiscard]] const std::vector<std::uint8_t>& packedCells() const { return packed_; }
   [[nodiscard]] AxisAlignedBox region() const;
 
   [[nodiscard]] std::size_t offsetOf(const VoxelIndex& local) const {
@@ -64,6 +67,7 @@ class LocalWindow {
   VoxelIndex origin_;
   VoxelIndex size_;
   std::vector<std::uint8_t> cells_;
+  std::vector<std::uint8_t> packed_;
 };
 
 }  // namespace spelunk::map

@@ -27,7 +27,7 @@ std::vector<Edge> edgesIn(const map::LocalWindow& window, const map::InflatedWin
                                     : window.at(point) == map::Occupancy::kFree;
   };
   while (edges.size() < kEdges) {
-    const Eigen::Vector3d a = freePoint(window, rng, middle, {18.0, 18.0, 2.5});
+    const Eigen::Vector3d a = freePoint(window, rng, middle, {16.0, 16.0, 1.8});
     const double azimuth = rng.uniform(-M_PI, M_PI);
     const double elevation = rng.uniform(-0.3, 0.3);
     const Eigen::Vector3d b =
@@ -49,7 +49,7 @@ void addEntries(double face, double way, std::vector<double>& moments) {
 
 Row edgeRow(KnownMine& mine, Ends ends, const std::string& what) {
   const auto frozen = mine.map.freeze();
-  const map::LocalWindow window(*frozen, boxAround(mine.middle, {44.0, 44.0, 8.0}));
+  const map::LocalWindow window(*frozen, boxAround(mine.middle, {40.0, 40.0, 6.0}));
   const std::vector<Edge> edges =
       edgesIn(window, map::InflatedWindow(window, kBox), mine.middle, ends);
   std::vector<char> plain(edges.size());
