@@ -1,0 +1,69 @@
+#include "spelunk/mission/mission_store.h"
+
+#include <gtest/gtest.h>
+
+#include "spelunk/common/contract.h"
+#include "support/temporary_folder.h"
+
+namespace spelunk::mission {
+namespace {
+
+MissionRecord sample() {
+  MissionRecord record;
+  record.bounds.min = {-10.0, -20.0, -std::numeric_limits<double>::infinity()};
+  record.bounds.max.x() = 30.0;
+  record.zones.push_back({"shaft", {{0.0, 0.0}, {1.0, 0.0}, {1.0, 1.0}}, -2.0, 4.0});
+  record.trail = {{{1.0, 2.0, 3.0}, 0.5}, {{1.5, 2.0, 3.0}, 0.6}};
+  record.remaining_s = 321.5;
+  planners::GraphLayer layer;
+  layer.name = "global";
+  layer.vertices = {{{0.0, 0.0, 1.0}, 12.5, true}, {{1.0, 0.0, 1.0}, 0.0, false}};
+  layer.edges = {{0U, 1U}};
+  record.graph.layers.push_back(layer);
+  return record;
+}
+
+TEST(MissionStore, ReadsWhatItWrote) {
+  const test::TemporaryFolder folder;
+  writeRecord(folder.at("saved"), sample());
+  const MissionRecord read = readRecord(folder.at("saved"));
+  EXPECT_EQ(read.bounds.min.y(), -20.0);
+  EXPECT_TRUE(std::isinf(read.bounds.min.z()));
+  EXPECT_TRUE(std::isinf(read.bounds.max.z()));
+  ASSERT_EQ(read.zones.size(), 1U);
+  EXPECT_EQ(read.zones[0].name, "shaft");
+  EXPECT_EQ(read.zones[0].polygon.size(), 3U);
+  ASSERT_EQ(read.trail.size(), 2U);
+  EXPECT_EQ(read.trail[1].yaw, 0.6);
+  EXPECT_EQ(read.remaining_s, 321.5);
+  ASSERT_EQ(read.graph.layers.size(), 1U);
+  EXPECT_TRUE(read.graph.layers[0].vertices[0].is_frontier);
+  EXPECT_EQ(read.graph.layers[0].edges[0].second, 1U);
+}
+
+TEST(MissionStore, NamesTheMissingFile) {
+  const test::TemporaryFolder folder;
+  try {
+    static_cast<void>(readRecord(folder.at("nothing")));
+    FAIL();
+  } catch (const OutsideError& error) {
+    EXPECT_NE(std::string(error.what()).find("mission.json"), std::string::npos);
+  }
+}
+
+TEST(MissionStore, RefusesDamagedFiles) {
+  const test::TemporaryFolder folder;
+  folder.write("mission.json", "{\"format\": 1, \"trail\": [");
+  EXPECT_THROW(static_cast<void>(readRecord(folder.at(""))), OutsideError);
+  folder.write("mission.json", "{\"format\": 99}");
+  EXPECT_THROW(static_cast<void>(readRecord(folder.at(""))), OutsideError);
+}
+
+TEST(MissionStore, NamesFolderThatCannotBeWritten) {
+  const test::TemporaryFolder folder;
+  folder.write("file", "x");
+  EXPECT_THROW(writeRecord(folder.at("file/below"), sample()), OutsideError);
+}
+
+}  // namespace
+}  // namespace spelunk::mission

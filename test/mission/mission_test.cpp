@@ -1,0 +1,222 @@
+#include "spelunk/mission/mission.h"
+
+#include <gtest/gtest.h>
+
+#include "support/scripted_flight.h"
+#include "support/temporary_folder.h"
+
+namespace spelunk::mission {
+namespace {
+
+using planners::PathKind;
+using planners::PlanStatus;
+using test::ScriptedFlight;
+using test::ScriptedPlanner;
+
+const Pose kStart{{3.0, 2.5, 2.5}, 0.0};
+
+Path along(double from_x, double to_x) {
+  return {{{from_x, 2.5, 2.5}, 0.0}, {{to_x, 2.5, 2.5}, 0.0}};
+}
+
+/// Goes on by 6 m along the corridor up to `end_x`, then there is nothing to gain.
+class CorridorMission : public testing::Test {
+ protected:
+  void SetUp() override {
+    setLogSink([](LogLevel, const std::string&) {});
+    exploreUpTo(20.0);
+  }
+  void exploreUpTo(double end_x) {
+    planner_.on_plan = [end_x](const planners::PlanRequest& request) {
+      const Eigen::Vector3d& at = request.pose.position;
+      if (at.x() > end_x - 0.5) return ScriptedPlanner::none(PlanStatus::kNothingToGain);
+      Path path = along(at.x(), std::min(end_x, at.x() + 6.0));
+      path.front() = request.pose;
+      return ScriptedPlanner::path(path, PathKind::kLocal);
+    };
+  }
+  ScriptedPlanner planner_;
+};
+
+TEST_F(CorridorMission, ExploresThenComesHome) {
+  ScriptedFlight flight(test::corridorWorld(30.0), kStart, planner_);
+  ASSERT_TRUE(flight.start().accepted);
+  ASSERT_TRUE(flight.flyToTheEnd(120.0));
+  EXPECT_LT(distance(flight.state().pose, kStart), 1.0);
+  EXPECT_NE(flight.mission().status().end_reason.find("explored"), std::string::npos)
+      << flight.mission().status().end_reason;
+  EXPECT_GT(flight.mission().status().distance_m, 32.0);
+  EXPECT_EQ(flight.collisions(), 0);
+}
+
+TEST_F(CorridorMission, NeverStopsBetweenLocalPaths) {
+  ScriptedFlight flight(test::corridorWorld(60.0), kStart, planner_);
+  exploreUpTo(50.0);
+  ASSERT_TRUE(flight.start().accepted);
+  flight.flyFor(5.0);
+  double slowest = 10.0;
+  for (int k = 0; k < 150; ++k) {
+    flight.step();
+    slowest = std::min(slowest, flight.state().velocity.norm());
+  }
+  EXPECT_GT(slowest, 1.5);
+}
+
+TEST_F(CorridorMission, RefusesPathThroughUnknown) {
+  planner_.on_plan = [](const planners::PlanRequest& request) {
+    Path path{request.pose, {{3.0, 2.5, 9.0}, 0.0}};
+    return ScriptedPlanner::path(path, PathKind::kLocal);
+  };
+  ScriptedFlight flight(test::corridorWorld(30.0), kStart, planner_);
+  ASSERT_TRUE(flight.start().accepted);
+  ASSERT_TRUE(flight.flyToTheEnd(30.0));
+  EXPECT_GT(flight.mission().status().refused_paths, 0);
+  EXPECT_LT(flight.mission().status().distance_m, 0.5);
+  EXPECT_NE(flight.mission().status().end_reason.find("no plan"), std::string::npos);
+}
+
+TEST_F(CorridorMission, RefusesPathOutsideTheBounds) {
+  ScriptedFlight flight(test::corridorWorld(30.0), kStart, planner_);
+  AxisAlignedBox bounds;
+  bounds.max.x() = 8.0;
+  ASSERT_TRUE(flight.mission().setBounds(bounds).accepted);
+  ASSERT_TRUE(flight.start().accepted);
+  flight.flyFor(20.0);
+  EXPECT_LE(flight.state().pose.position.x(), 8.0);
+  EXPECT_NE(flight.mission().status().refused_paths, 0);
+}
+
+TEST_F(CorridorMission, RefusesPathThroughNoGoZoneAndNamesIt) {
+  ScriptedFlight flight(test::corridorWorld(30.0), kStart, planner_);
+  NoGoZone zone;
+  zone.name = "old stope";
+  zone.polygon = {{6.0, 0.0}, {7.0, 0.0}, {7.0, 5.0}, {6.0, 5.0}};
+  ASSERT_TRUE(flight.mission().setZones({zone}).accepted);
+  ASSERT_TRUE(flight.start().accepted);
+  flight.flyFor(3.0);
+  EXPECT_LT(flight.state().pose.position.x(), 5.7);
+  EXPECT_NE(flight.mission().status().end_reason.find("old stope"), std::string::npos);
+}
+
+TEST_F(CorridorMission, TurnsForHomeWhenTheWayHomeTakesWhatIsLeft) {
+  exploreUpTo(90.0);
+  ScriptedFlight flight(test::corridorWorld(100.0), kStart, planner_);
+  flight.setBudget(70.0);
+  ASSERT_TRUE(flight.start().accepted);
+  ASSERT_TRUE(flight.flyToTheEnd(70.0));
+  EXPECT_GE(flight.mission().status().remaining_s, 15.0);
+  EXPECT_LE(flight.mission().status().remaining_s, 40.0);
+  EXPECT_NE(flight.mission().status().end_reason.find("endurance"), std::string::npos);
+}
+
+TEST_F(CorridorMission, StopsBeforeNewObstacleAndSaysWhy) {
+  exploreUpTo(25.0);
+  ScriptedFlight flight(test::corridorWorld(30.0), kStart, planner_);
+  ASSERT_TRUE(flight.start().accepted);
+  flight.flyFor(3.0);
+  const double x = flight.state().pose.position.x();
+  flight.world().block({{x + 4.0, 0.5, 0.5}, {x + 4.5, 4.5, 4.5}});
+  bool said = false;
+  for (int k = 0; k < 100; ++k) {
+    flight.step();
+    said = said || flight.mission().status().reason.find("obstacle") != std::string::npos;
+  }
+  EXPECT_TRUE(said);
+  EXPECT_EQ(flight.collisions(), 0);
+  EXPECT_GE(flight.mission().status().replans_obstacle + flight.mission().status().refused_paths, 1);
+  EXPECT_TRUE(flight.flyToTheEnd(90.0));
+}
+
+TEST_F(CorridorMission, HoldsWhenTheWayHomeIsWalledUpAndSaysSo) {
+  exploreUpTo(12.0);
+  ScriptedFlight flight(test::corridorWorld(30.0), kStart, planner_);
+  ASSERT_TRUE(flight.start().accepted);
+  flight.flyFor(4.5);
+  flight.world().block({{5.0, 0.5, 0.5}, {5.5, 4.5, 4.5}});
+  flight.flyFor(20.0);
+  EXPECT_EQ(flight.mission().status().state, MissionState::kHold);
+  EXPECT_NE(flight.mission().status().reason.find("home"), std::string::npos);
+  EXPECT_EQ(flight.collisions(), 0);
+  flight.world().carve({{5.0, 1.0, 1.0}, {5.5, 4.0, 4.0}});
+  EXPECT_TRUE(flight.flyToTheEnd(90.0)) << flight.mission().status().reason;
+}
+
+TEST_F(CorridorMission, DeviationHoldsAndPlansAnew) {
+  ScriptedFlight flight(test::corridorWorld(30.0), kStart, planner_);
+  ASSERT_TRUE(flight.start().accepted);
+  flight.flyFor(3.0);
+  flight.push({0.0, 0.0, 0.95});
+  flight.flyFor(0.3);
+  EXPECT_EQ(flight.mission().status().replans_deviation, 1);
+  EXPECT_TRUE(flight.flyToTheEnd(120.0));
+}
+
+TEST_F(CorridorMission, EmergencyStopStaysUntilStart) {
+  ScriptedFlight flight(test::corridorWorld(30.0), kStart, planner_);
+  ASSERT_TRUE(flight.start().accepted);
+  flight.flyFor(3.0);
+  flight.mission().emergencyStop();
+  flight.step();
+  EXPECT_TRUE(flight.lastCommand()->path.empty());
+  const double x = flight.state().pose.position.x();
+  flight.flyFor(5.0);
+  EXPECT_EQ(flight.mission().status().state, MissionState::kEStop);
+  EXPECT_FALSE(flight.mission().home().accepted);
+  EXPECT_EQ(flight.state().pose.position.x(), x);
+  EXPECT_TRUE(flight.mission().start().accepted);
+  EXPECT_TRUE(flight.flyToTheEnd(120.0));
+}
+
+TEST_F(CorridorMission, PauseHoldsAndStartGoesOn) {
+  ScriptedFlight flight(test::corridorWorld(30.0), kStart, planner_);
+  ASSERT_TRUE(flight.start().accepted);
+  flight.flyFor(3.0);
+  EXPECT_TRUE(flight.mission().pause().accepted);
+  flight.flyFor(3.0);
+  EXPECT_EQ(flight.mission().status().state, MissionState::kHold);
+  EXPECT_TRUE(flight.mission().start().accepted);
+  EXPECT_TRUE(flight.flyToTheEnd(120.0));
+}
+
+TEST_F(CorridorMission, HomeAsAskedEndsAtHome) {
+  ScriptedFlight flight(test::corridorWorld(30.0), kStart, planner_);
+  ASSERT_TRUE(flight.start().accepted);
+  flight.flyFor(4.0);
+  EXPECT_TRUE(flight.mission().home().accepted);
+  EXPECT_TRUE(flight.flyToTheEnd(60.0));
+  EXPECT_EQ(flight.mission().status().end_reason, "home as asked");
+}
+
+TEST_F(CorridorMission, SameSeedGivesTheSameCommands) {
+  std::vector<double> ends;
+  for (int k = 0; k < 2; ++k) {
+    ScriptedFlight flight(test::corridorWorld(30.0), kStart, planner_);
+    ASSERT_TRUE(flight.start().accepted);
+    ASSERT_TRUE(flight.flyToTheEnd(120.0));
+    ends.push_back(flight.now());
+    ends.push_back(flight.mission().status().distance_m);
+  }
+  EXPECT_EQ(ends[0], ends[2]);
+  EXPECT_EQ(ends[1], ends[3]);
+}
+
+TEST_F(CorridorMission, SavesAndTakesUpAgain) {
+  const test::TemporaryFolder folder;
+  ScriptedFlight flight(test::corridorWorld(30.0), kStart, planner_);
+  ASSERT_TRUE(flight.start().accepted);
+  flight.flyFor(5.0);
+  const Answer saved = flight.mission().save(folder.at("m"), {});
+  ASSERT_TRUE(saved.accepted) << saved.reason;
+  ScriptedFlight later(test::corridorWorld(30.0), flight.state().pose, planner_);
+  planners::PlannerGraph graph;
+  const Answer loaded = later.mission().load(folder.at("m"), &graph);
+  ASSERT_TRUE(loaded.accepted) << loaded.reason;
+  EXPECT_EQ(later.mission().trail().size(), flight.mission().trail().size());
+  ASSERT_TRUE(later.start().accepted);
+  EXPECT_TRUE(later.mission().home().accepted);
+  ASSERT_TRUE(later.flyToTheEnd(60.0));
+  EXPECT_LT(distance(later.state().pose, kStart), 1.0);
+}
+
+}  // namespace
+}  // namespace spelunk::mission

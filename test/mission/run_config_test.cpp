@@ -1,0 +1,50 @@
+#include "spelunk/mission/run_config.h"
+
+#include <gtest/gtest.h>
+
+#include "spelunk/common/contract.h"
+
+namespace spelunk::mission {
+namespace {
+
+RunChoice shipped() {
+  RunChoice choice;
+  choice.share_dir = SPELUNK_SOURCE_DIR;
+  return choice;
+}
+
+TEST(RunConfig, ReadsShippedFiles) {
+  const RunConfig config = loadRunConfig(shipped());
+  EXPECT_EQ(config.robot.speed_max_mps, 2.0);
+  EXPECT_FALSE(config.robot.sensor_models.empty());
+  EXPECT_EQ(config.map.resolution_m, 0.2);
+  EXPECT_GT(config.mission.reserve_s, 0.0);
+}
+
+TEST(RunConfig, AssignmentsWin) {
+  RunChoice choice = shipped();
+  choice.assignments = {"mission.reserve_s=77", "robot.speed_max_mps=1.5"};
+  const RunConfig config = loadRunConfig(choice);
+  EXPECT_EQ(config.mission.reserve_s, 77.0);
+  EXPECT_EQ(config.robot.speed_max_mps, 1.5);
+}
+
+TEST(RunConfig, UnknownRobotListsKnownOnes) {
+  RunChoice choice = shipped();
+  choice.robot = "submarine";
+  try {
+    static_cast<void>(loadRunConfig(choice));
+    FAIL();
+  } catch (const OutsideError& error) {
+    EXPECT_NE(std::string(error.what()).find("aerial"), std::string::npos);
+  }
+}
+
+TEST(RunConfig, AssignmentWithoutValueIsNamed) {
+  RunChoice choice = shipped();
+  choice.assignments = {"mission.reserve_s"};
+  EXPECT_THROW(static_cast<void>(loadRunConfig(choice)), OutsideError);
+}
+
+}  // namespace
+}  // namespace spelunk::mission
