@@ -10,6 +10,7 @@
 #include "spelunk/common/log.h"
 #include "spelunk/common/pin_math.h"
 #include "spelunk/evaluation/mission_run.h"
+#include "spelunk/evaluation/plan_view.h"
 #include "spelunk/evaluation/reachable_volume.h"
 #include "spelunk/evaluation/run_report.h"
 #include "spelunk/mission/run_config.h"
@@ -119,7 +120,7 @@ void show(const spelunk::evaluation::Progress& progress) {
 
 void plot(const std::string& share_dir, const std::string& out) {
   const std::string command =
-      "python3 '" + share_dir + "/scripts/plot_mission.py' '" + out + "' >/dev/null 2>&1";
+      "'" + share_dir + "/scripts/plot_mission.py' '" + out + "' >/dev/null 2>&1";
   if (std::system(command.c_str()) != 0)
     spelunk::log(spelunk::LogLevel::kWarn,
                  "no exploration.png: scripts/plot_mission.py failed (python3-matplotlib missing?)");
@@ -161,6 +162,7 @@ int fly(const Options& options, bool quiet) {
        reachable.total_m3},
       record);
   run.mission().map().save(options.out + "/map.bt");
+  spelunk::evaluation::writePlanView(*run.mission().map().freeze(), options.out + "/.plan_view");
   plot(loaded.share_dir, options.out);
   if (!quiet) sayResult(record, reachable.total_m3, options.out);
   return record.ended_as_it_may ? EXIT_SUCCESS : kExitStranded;

@@ -1,8 +1,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "winding.h"
-#include "world_kinds.h"
+#include "spelunk/sim/winding.h"
+#include "spelunk/sim/world_kinds.h"
 
 namespace spelunk::sim {
 namespace {

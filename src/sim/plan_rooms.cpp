@@ -1,7 +1,7 @@
 #include <algorithm>
 
-#include "winding.h"
-#include "world_kinds.h"
+#include "spelunk/sim/winding.h"
+#include "spelunk/sim/world_kinds.h"
 
 namespace spelunk::sim {
 namespace {

@@ -1,5 +1,5 @@
-#include "winding.h"
-#include "world_kinds.h"
+#include "spelunk/sim/winding.h"
+#include "spelunk/sim/world_kinds.h"
 
 namespace spelunk::sim {
 

@@ -1,9 +1,9 @@
-#include "rock_field.h"
+#include "spelunk/sim/rock_field.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "rock_noise.h"
+#include "spelunk/sim/rock_noise.h"
 
 namespace spelunk::sim {
 namespace {

@@ -1,4 +1,4 @@
-#include "rock_noise.h"
+#include "spelunk/sim/rock_noise.h"
 
 #include <cmath>
 

@@ -1,4 +1,4 @@
-#include "surface_nets.h"
+#include "spelunk/sim/surface_nets.h"
 
 #include <algorithm>
 #include <array>

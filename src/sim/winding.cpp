@@ -1,10 +1,10 @@
-#include "winding.h"
+#include "spelunk/sim/winding.h"
 
 #include <algorithm>
 #include <cmath>
 #include <numeric>
 
-#include "rock_noise.h"
+#include "spelunk/sim/rock_noise.h"
 
 namespace spelunk::sim {
 

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "rock_field.h"
 #include "spelunk/common/contract.h"
-#include "surface_nets.h"
+#include "spelunk/sim/rock_field.h"
+#include "spelunk/sim/surface_nets.h"
 
 namespace spelunk::sim {
 namespace {

@@ -4,7 +4,7 @@
 #include <map>
 
 #include "spelunk/common/contract.h"
-#include "world_kinds.h"
+#include "spelunk/sim/world_kinds.h"
 
 namespace spelunk::sim {
 namespace {
