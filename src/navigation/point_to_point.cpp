@@ -185,6 +185,8 @@ class Query {
               "no path through known free space within " + std::to_string(request_.iterations) +
                   " samples", {}, samples};
     Path path = shortened(pathOf(*problem->getSolutionPath()->as<og::PathGeometric>()));
+    path.front() = request_.start;  // cutting has rounded them
+    path.back() = request_.goal;
     return {PointToPointStatus::kOk, "found by RRT-Connect", std::move(path), samples};
   }
 

@@ -22,8 +22,14 @@ struct SpeedProfile {
   std::vector<double> time_s;  ///< From the begin of the curve.
 };
 
-double accelerationAlong(const CurveSample& sample, double speed, double limit) {
-  const double sideways = speed * speed * sample.curvature.norm();
+/// The curvature between two samples. Where a line meets an arc their common sample has the arc's,
+/// so the smaller one holds for the piece between.
+const Eigen::Vector3d& curvatureBetween(const CurveSample& a, const CurveSample& b) {
+  return a.curvature.squaredNorm() < b.curvature.squaredNorm() ? a.curvature : b.curvature;
+}
+
+double accelerationAlong(const CurveSample& a, const CurveSample& b, double speed, double limit) {
+  const double sideways = speed * speed * curvatureBetween(a, b).norm();
   return std::sqrt(std::max(0.36 * limit * limit, limit * limit - sideways * sideways));
 }
 
@@ -48,13 +54,13 @@ SpeedProfile profileOf(const std::vector<CurveSample>& curve, const MotionLimits
   std::vector<double>& v = profile.speed_mps;
   const double a = limits.acceleration_mps2;
   for (std::size_t i = curve.size() - 1; i-- > 0;) {
-    const double along = accelerationAlong(curve[i + 1], v[i + 1], a);
+    const double along = accelerationAlong(curve[i], curve[i + 1], v[i + 1], a);
     const double step = curve[i + 1].arc_m - curve[i].arc_m;
     v[i] = std::min(v[i], std::sqrt(v[i + 1] * v[i + 1] + 2.0 * along * step));
   }
   v[0] = std::min(v[0], start_speed);
   for (std::size_t i = 0; i + 1 < curve.size(); ++i) {
-    const double along = accelerationAlong(curve[i], v[i], a);
+    const double along = accelerationAlong(curve[i], curve[i + 1], v[i], a);
     const double step = curve[i + 1].arc_m - curve[i].arc_m;
     v[i + 1] = std::min(v[i + 1], std::sqrt(v[i] * v[i] + 2.0 * along * step));
     profile.time_s.push_back(profile.time_s.back() + 2.0 * step / (v[i] + v[i + 1]));
@@ -103,10 +109,9 @@ TrajectoryPoint pointAt(const std::vector<CurveSample>& curve, const SpeedProfil
   const Eigen::Vector3d tangent_in = a.is_cusp ? Eigen::Vector3d(b.tangent) : a.tangent;
   const Eigen::Vector3d tangent =
       (tangent_in + share * (b.tangent - tangent_in)).normalized();
-  const Eigen::Vector3d bend = share < 0.5 ? a.curvature : b.curvature;
   point.pose.position = a.position + share * (b.position - a.position);
   point.velocity = speed * tangent;
-  point.acceleration = along * tangent + speed * speed * bend;
+  point.acceleration = along * tangent + speed * speed * curvatureBetween(a, b);
   return point;
 }
 
