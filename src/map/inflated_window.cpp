@@ -35,7 +35,7 @@ struct AxisMotion {
     step = way > 0.0 ? 1 : -1;
     period = 1.0 / std::fabs(way);
     const auto timeTo = [&](double face) {
-      const double below = std::floor(face);
+      const double below = voxelOf(face, 1.0);
       return (way > 0.0 ? below + 1.0 - face : face - below) * period;
     };
     lead_time = timeTo(way > 0.0 ? high_face : low_face);

@@ -112,6 +112,20 @@ LocalWindow::LocalWindow(const FrozenMap& map, const AxisAlignedBox& region)
   for (const auto& chunk : map.blocks().chunks) copyChunk(*chunk, origin_, last, copier);
 }
 
+LocalWindow LocalWindow::withCells(std::vector<std::uint8_t> cells) const {
+  require(cells.size() == cells_.size(), "LocalWindow: cells of another size");
+  LocalWindow changed(resolution_m_, origin_, size_);
+  changed.packed_.resize(packed_.size());
+  for (std::size_t i = 0; i < cells.size(); i += 4) {
+    std::uint32_t four = 0;
+    std::memcpy(&four, cells.data() + i, std::min<std::size_t>(4, cells.size() - i));
+    changed.packed_[i / 4] =
+        static_cast<std::uint8_t>((four | four >> 6 | four >> 12 | four >> 18) & 0xFFU);
+  }
+  changed.cells_ = std::move(cells);
+  return changed;
+}
+
 VoxelIndex LocalWindow::indexOf(const Eigen::Vector3d& point) const {
   return voxelOf(point, 1.0 / resolution_m_);
 }
