@@ -5,7 +5,9 @@
 namespace spelunk::bridge {
 
 std::optional<double> MissionClock::update(const ::ros::Time& now) {
+  if (now.isZero()) return std::nullopt;  // No clock yet.
   const double now_s = now.toSec();
+  if (!last_s_) offset_s_ = -now_s;
   const double back_s = last_s_ ? *last_s_ - now_s : 0.0;
   if (back_s >= kJumpBack_s) {
     offset_s_ += back_s;

@@ -81,6 +81,7 @@ void PlannerInputs::onCloud(const sensor_msgs::PointCloud2::ConstPtr& cloud) {
   holdingOnError(core_, "pointcloud", [&] {
     forgetAfterClockJump();
     const ::ros::Time now = ::ros::Time::now();
+    if (now.isZero()) return;  // Simulated time has not begun.
     core_.with([&](MissionCore& c) { c.watch.heard(cloud_input_, missionTime(c, now)); });
     const std::string problem = pending_.push(cloud, now);
     if (!problem.empty()) report("cloud stamp or frame", problem);
@@ -137,6 +138,7 @@ void PlannerInputs::onOdometry(const nav_msgs::Odometry::ConstPtr& odometry) {
   holdingOnError(core_, "odometry", [&] {
     forgetAfterClockJump();
     const ::ros::Time now = ::ros::Time::now();
+    if (now.isZero()) return;
     core_.with([&](MissionCore& c) { c.watch.heard(odometry_input_, missionTime(c, now)); });
     const std::string stamp_problem = stampProblem(odometry->header.stamp, now);
     if (!stamp_problem.empty()) return report("odometry stamp", "odometry " + stamp_problem);

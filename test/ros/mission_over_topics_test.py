@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""aerial.launch as a user starts it: the robot explores the small room and comes home."""
+"""Both nodes over topics: the robot explores the small room and comes home."""
 
 import os
 import sys
@@ -15,6 +15,7 @@ from nav_msgs.msg import Odometry, Path
 from sensor_msgs.msg import PointCloud2
 from spelunk.msg import Graph, PlannerStatus
 from std_msgs.msg import UInt32
+from std_srvs.srv import Trigger
 from trajectory_msgs.msg import MultiDOFJointTrajectory
 from visualization_msgs.msg import Marker, MarkerArray
 
@@ -34,9 +35,14 @@ class MissionOverTopics(unittest.TestCase):
         cls.map_cloud = Listener("map_cloud", PointCloud2)
         cls.collisions = Listener("collisions", UInt32)
         cls.mesh = Listener("mesh", Marker)
+        assert cls.odometry.wait(lambda _: True, 20.0), "no odometry"
+        rospy.wait_for_service("planner_node/start", timeout=20.0)
+        rospy.sleep(1.0)
+        cls.start = rospy.ServiceProxy("planner_node/start", Trigger)()
         cls.done = cls.status.wait(lambda status: status.state == "Done", DONE_WITHIN_S)
 
     def test_explores_and_ends_with_a_reason(self):
+        self.assertTrue(self.start.success, self.start.message)
         self.assertIsNotNone(self.done, "not done in time; last: %s" % self.status.latest())
         self.assertRegex(self.done.reason, "explored|home by endurance")
         self.assertGreater(self.done.distance_m, 2.0, "the robot hardly moved")

@@ -68,23 +68,26 @@ TEST(Params, NestedListsAreAProblemOfTheTree) {
   }
 }
 
-TEST(MissionClock, FollowsRosTimeThereAndBack) {
+TEST(MissionClock, BeginsWithTheFirstRosTimeAndFollowsItThereAndBack) {
   MissionClock clock;
-  EXPECT_FALSE(clock.update(ros::Time(10.0)));
-  EXPECT_EQ(clock.toMission(ros::Time(10.5)), 10.5);
-  EXPECT_NEAR(clock.toRos(10.5).toSec(), 10.5, 1e-6);
+  EXPECT_FALSE(clock.update(ros::Time(0.0)));
+  EXPECT_EQ(clock.toMission(ros::Time(0.0)), 0.0) << "no /clock yet";
+  EXPECT_FALSE(clock.update(ros::Time(1e9)));
+  EXPECT_EQ(clock.toMission(ros::Time(1e9 + 0.5)), 0.5);
+  EXPECT_NEAR(clock.toRos(0.5).toSec(), 1e9 + 0.5, 1e-6);
 }
 
 TEST(MissionClock, GoesOnFromWhereItWasAfterAJumpBack) {
   MissionClock clock;
+  clock.update(ros::Time(60.0));
   clock.update(ros::Time(100.0));
   const auto back = clock.update(ros::Time(2.0));
   ASSERT_TRUE(back);
   EXPECT_NEAR(*back, 98.0, 1e-9);
-  EXPECT_NEAR(clock.toMission(ros::Time(2.0)), 100.0, 1e-9);
+  EXPECT_NEAR(clock.toMission(ros::Time(2.0)), 40.0, 1e-9);
   EXPECT_FALSE(clock.update(ros::Time(3.0)));
-  EXPECT_NEAR(clock.toMission(ros::Time(3.0)), 101.0, 1e-9);
-  EXPECT_NEAR(clock.toRos(101.0).toSec(), 3.0, 1e-6);
+  EXPECT_NEAR(clock.toMission(ros::Time(3.0)), 41.0, 1e-9);
+  EXPECT_NEAR(clock.toRos(41.0).toSec(), 3.0, 1e-6);
 }
 
 TEST(MissionClock, JitterIsNoJump) {

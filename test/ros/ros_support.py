@@ -66,8 +66,9 @@ def cloud_message(points, frame, stamp):
 
 
 def room_hits(origin, half_size, columns=360, rows=16):
-    """Where the rays of a LiDAR at `origin` hit the walls of a box room around (0, 0, 0)."""
-    azimuth, elevation = np.meshgrid(np.linspace(-np.pi, np.pi, columns, endpoint=False),
+    """Where the rays of a LiDAR at `origin` hit the walls of a box room around (0, 0, 0). Nothing
+    comes back from the quarter ahead, so there is always something left to explore."""
+    azimuth, elevation = np.meshgrid(np.linspace(0.25 * np.pi, 1.75 * np.pi, columns),
                                      np.radians(np.linspace(-45.0, 45.0, rows)))
     directions = np.stack([np.cos(elevation) * np.cos(azimuth),
                            np.cos(elevation) * np.sin(azimuth), np.sin(elevation)], axis=-1)

@@ -6,8 +6,9 @@
 
 namespace spelunk::bridge {
 
-/// Mission time from ROS time. ROS time may jump back (a simulator restarted, a bag replayed);
-/// mission time never does: after a jump it goes on from where it was.
+/// Mission time from ROS time: it begins at 0 with the first ROS time that is not 0. ROS time may
+/// jump back (a simulator restarted, a bag replayed); mission time never does: after a jump it goes
+/// on from where it was.
 class MissionClock {
  public:
   /// Jumps back smaller than this are jitter between publishers and do not count.
@@ -17,7 +18,7 @@ class MissionClock {
   std::optional<double> update(const ::ros::Time& now);
 
   [[nodiscard]] double toMission(const ::ros::Time& stamp) const {
-    return stamp.toSec() + offset_s_;
+    return last_s_ ? stamp.toSec() + offset_s_ : 0.0;
   }
   [[nodiscard]] ::ros::Time toRos(double mission_s) const;
 
