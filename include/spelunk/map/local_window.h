@@ -18,12 +18,7 @@ class LocalWindow {
   LocalWindow(const FrozenMap& map, const AxisAlignedBox& region);
 
   /// The same region with other contents, one byte a voxel as in cells().
-  [[nodiscard]] LocalWindow withCells(std::vector<std::uint8_t> cells) const {
-    require(cells.size() == cells_.size(), "LocalWindow: cells of another size");
-    LocalWindow changed(resolution_m_, origin_, size_);
-    changed.cells_ = std::move(cells);
-    return changed;
-  }
+  [[nodiscard]] LocalWindow withCells(std::vector<std::uint8_t> cells) const;
 
   /// Outside the window: unknown.
   [[nodiscard]] Occupancy at(const VoxelIndex& index) const {
