@@ -95,7 +95,7 @@ void Mission::Impl::takeOff() {
   const Pose pose = input.latest()->pose;
   if (!home_graph) {
     home_graph.emplace(pose, robot.box_m, map.params().resolution_m);
-    const Eigen::Vector3d room(params.start_clearance_m, params.start_clearance_m, 0.0);
+    const Eigen::Vector3d room = params.start_clearance_m * Eigen::Vector3d(1.0, 1.0, 0.5);
     map.markFree(boxAround(pose.position, robot.box_m + 2.0 * room));
     stamped_trail.push_back({input.latest()->stamp_s, pose});
   }
