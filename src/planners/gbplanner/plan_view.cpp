@@ -8,14 +8,23 @@
 namespace spelunk::planners::gbplanner {
 namespace {
 
-/// `box` where there is anything known, a voxel around it included; never empty.
+/// `box` where there is anything known within `margin`; never empty.
 AxisAlignedBox knownPart(const AxisAlignedBox& box, const map::FrozenMap& map,
-                         const Eigen::Vector3d& inside) {
+                         const Eigen::Vector3d& inside, const Eigen::Vector3d& margin) {
   AxisAlignedBox known = map.knownBounds();
   if (known.isEmpty()) known = boxAround(inside, Eigen::Vector3d::Zero());
-  const Eigen::Vector3d margin = Eigen::Vector3d::Constant(map.resolution());
   const AxisAlignedBox common = intersection(box, {known.min - margin, known.max + margin});
   return common.isEmpty() ? boxAround(inside, margin) : common;
+}
+
+/// A voxel beyond what is known: as good as more where unknown space is not passed.
+Eigen::Vector3d oneVoxel(const map::FrozenMap& map) {
+  return Eigen::Vector3d::Constant(map.resolution());
+}
+
+/// Rays may run into unknown space sideways as far as they reach, but openings do not lead upwards.
+Eigen::Vector3d rayMargin(const map::GainEvaluator& evaluator, const map::FrozenMap& map) {
+  return {evaluator.reach(), evaluator.reach(), map.resolution()};
 }
 
 AxisAlignedBox grown(const AxisAlignedBox& box, const Eigen::Vector3d& margin) {
@@ -42,7 +51,8 @@ PlanView::PlanView(const PlanRequest& request, const RobotModel& robot,
       local_box_(
           intersection(boxAround(request.pose.position, params.local_box_m), request.bounds)),
       window_(*request.map, knownPart(grown(local_box_, robot.box_m + params.safety_margin_m),
-                                      *request.map, request.pose.position)),
+                                      *request.map, request.pose.position,
+                                      oneVoxel(*request.map))),
       inflated_(window_, robot.box_m),
       inflated_roomy_(window_, robot.box_m + 2.0 * params.safety_margin_m),
       checker_(std::make_unique<navigation::SegmentChecker>(request.map, robot.box_m)),
@@ -58,7 +68,8 @@ PlanView::PlanView(const PlanRequest& request, const RobotModel& robot,
 
 void PlanView::prepareGains() {
   const AxisAlignedBox region =
-      knownPart(grown(local_box_, gainMargin(evaluator_)), *request_.map, request_.pose.position);
+      knownPart(grown(local_box_, gainMargin(evaluator_)), *request_.map,
+                request_.pose.position, rayMargin(evaluator_, *request_.map));
   credible_ = credibleWindow(map::LocalWindow(*request_.map, region), credibilityOf(params_));
 }
 
@@ -72,7 +83,8 @@ double gainAnywhere(const PlanRequest& request, const GbPlannerParams& params,
                     double yaw) {
   const Eigen::Vector3d size = 2.0 * gainMargin(evaluator);
   const map::LocalWindow window(*request.map,
-                                knownPart(boxAround(position, size), *request.map, position));
+                                knownPart(boxAround(position, size), *request.map, position,
+                                          rayMargin(evaluator, *request.map)));
   return evaluator
       .evaluate(credibleWindow(window, credibilityOf(params)), position, yaw, request.bounds)
       .unknown_m3;
