@@ -1,0 +1,117 @@
+#include "spelunk/evaluation/mission_run.h"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "spelunk/common/contract.h"
+#include "spelunk/common/log.h"
+#include "spelunk/evaluation/run_report.h"
+#include "spelunk/planners/factory.h"
+#include "support/meshes.h"
+#include "support/temporary_folder.h"
+
+namespace spelunk::evaluation {
+namespace {
+
+RunSetup roomSetup() {
+  RunSetup setup;
+  SensorModel sensor;
+  sensor.rows = 16;
+  sensor.columns = 360;
+  sensor.range_max_m = 8.0;  // the room has to be flown through to be seen
+  sensor.gain_range_m = 8.0;
+  setup.robot.sensor_models = {sensor};
+  setup.map.range_max_m = 8.0;
+  setup.start = {{-10.0, 0.0, 1.5}, 0.0};
+  setup.time_limit_s = 60.0;
+  setup.seed = 3;
+  return setup;
+}
+
+RunRecord flyRoom(const RunSetup& setup) {
+  setLogSink([](LogLevel, const std::string&) {});
+  const sim::WorldMesh mesh = test::boxRoom({30.0F, 8.0F, 4.0F});
+  ParamTree tree;
+  const auto planner =
+      planners::makePlanner("gbplanner", tree, setup.robot, setup.map.resolution_m);
+  MissionRun run(setup, mesh, *planner);
+  return run.fly();
+}
+
+std::string textOf(const std::string& path) {
+  std::ifstream file(path);
+  std::stringstream text;
+  text << file.rdbuf();
+  return text.str();
+}
+
+TEST(MissionRun, SeesTheRoomAndComesHomeWithoutTouching) {
+  const RunRecord record = flyRoom(roomSetup());
+  EXPECT_TRUE(record.returned_home) << record.outcome;
+  EXPECT_TRUE(record.ended_as_it_may);
+  EXPECT_EQ(record.collisions, 0);
+  EXPECT_GT(record.min_clearance_m, 0.1);
+  EXPECT_GT(record.remaining_at_home_s, 0.0);
+  EXPECT_GT(record.explored_volume_m3, 500.0);  // of 960 m3 of air and the walls
+  EXPECT_GT(record.path_length_m, 20.0);
+  EXPECT_FALSE(record.plans.empty());
+}
+
+TEST(MissionRun, SameSeedWritesTheSameTimelineByteForByte) {
+  const test::TemporaryFolder folder;
+  std::vector<std::string> texts;
+  for (const char* name : {"a", "b"}) {
+    requireWritable(folder.at(name));
+    writeReport(folder.at(name), {"gbplanner", "room", "aerial", 3, 60.0, 0.0},
+                flyRoom(roomSetup()));
+    texts.push_back(textOf(folder.at(name) + "/timeline.csv"));
+  }
+  EXPECT_GT(texts[0].size(), 200U);
+  EXPECT_EQ(texts[0], texts[1]);
+}
+
+TEST(RunReport, SummaryHasEveryPromisedKey) {
+  const test::TemporaryFolder folder;
+  RunRecord record;
+  record.outcome = "explored \"all\"";
+  record.map_update_ms = {1.0, 2.0, 3.0};
+  writeReport(folder.at(""), {"gbplanner", "w", "aerial", 1, 900.0, 123.0}, record);
+  const auto json = nlohmann::json::parse(textOf(folder.at("summary.json")));
+  for (const char* key :
+       {"planner", "world", "robot", "seed", "outcome", "mission_time_s", "wall_time_s",
+        "explored_volume_m3", "reachable_volume_m3", "path_length_m", "collisions",
+        "min_clearance_m", "returned_home", "remaining_at_home_s", "falls", "plans", "plan_time_ms",
+        "map_update_ms", "peak_memory_mb"})
+    EXPECT_TRUE(json.contains(key)) << key;
+  EXPECT_EQ(json["map_update_ms"]["median"], 2.0);
+  EXPECT_GT(json["peak_memory_mb"].get<double>(), 1.0);
+  EXPECT_EQ(textOf(folder.at("timeline.csv")),
+            "t_s,explored_m3,distance_m,x_m,y_m,z_m,yaw_rad,remaining_s,state\n");
+}
+
+TEST(RunReport, FolderThatCannotBeWrittenIsNamed) {
+  const test::TemporaryFolder folder;
+  folder.write("file", "x");
+  try {
+    requireWritable(folder.at("file/out"));
+    FAIL();
+  } catch (const OutsideError& error) {
+    EXPECT_NE(std::string(error.what()).find("file/out"), std::string::npos);
+  }
+}
+
+TEST(RunReport, SpreadIsMedianNinetyFifthAndMaximum) {
+  std::vector<double> values;
+  for (int k = 100; k >= 0; --k) values.push_back(k);
+  const Spread spread = spreadOf(values);
+  EXPECT_EQ(spread.median, 50.0);
+  EXPECT_EQ(spread.p95, 95.0);
+  EXPECT_EQ(spread.max, 100.0);
+  EXPECT_EQ(spreadOf({}).max, 0.0);
+}
+
+}  // namespace
+}  // namespace spelunk::evaluation
