@@ -148,6 +148,22 @@ void BlockMap::noteTree(std::uint32_t number) {
   tree_changes_.push_back(number);
 }
 
+void BlockMap::sortAlongTree(std::vector<std::uint32_t>& numbers) const {
+  const auto spread = [](PackedKey key) {  // bits of the three axes interleaved
+    std::uint64_t code = 0;
+    for (int bit = 15; bit >= 3; --bit)
+      for (int axis = 2; axis >= 0; --axis)
+        code = code << 1 | ((key >> (axis * kKeyFieldBits + bit)) & 1);
+    return code;
+  };
+  std::vector<std::pair<std::uint64_t, std::uint32_t>> order;
+  order.reserve(numbers.size());
+  for (const std::uint32_t number : numbers)
+    order.emplace_back(spread(blocks_[number]->key), number);
+  std::sort(order.begin(), order.end());
+  for (std::size_t i = 0; i < numbers.size(); ++i) numbers[i] = order[i].second;
+}
+
 void BlockMap::noteStatus(std::uint32_t number, const Mask& known_before,
                           const Mask& occupied_before) {
   VoxelBlock& block = *blocks_[number];

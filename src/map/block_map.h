@@ -62,9 +62,11 @@ class BlockMap {
   /// Numbers of the blocks whose status changed since the last call, in order of change.
   std::vector<std::uint32_t> takeStatusChanges();
 
-  /// Calls `visit(block)` for each block with stale tree values and marks it up to date.
+  /// Calls `visit(block)` for each block with stale tree values and marks it up to date. Blocks
+  /// come in the order of the tree, because neighbours share most of the way down.
   template <class Visit>
   void takeTreeChanges(Visit&& visit) {
+    sortAlongTree(tree_changes_);
     for (const std::uint32_t number : tree_changes_) {
       VoxelBlock& changed = *blocks_[number];
       visit(static_cast<const VoxelBlock&>(changed));
@@ -79,6 +81,7 @@ class BlockMap {
   void enterPlane(VoxelBlock& block, std::size_t z, std::uint64_t free, std::uint64_t hit);
   void setVoxel(VoxelBlock& block, std::size_t z, int bit, float value);
   void noteTree(std::uint32_t number);
+  void sortAlongTree(std::vector<std::uint32_t>& numbers) const;
   void noteStatus(std::uint32_t number, const Mask& known_before, const Mask& occupied_before);
 
   LogOdds log_odds_;

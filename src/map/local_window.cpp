@@ -40,6 +40,9 @@ class BlockCopier {
       : origin_(origin), size_(size), cells_(cells), packed_(packed) {}
 
   void copy(const StatusBlock& block, const VoxelIndex& corner) {
+    if (block.known == Mask{}) return;
+    known_.min = known_.min.cwiseMin(corner);
+    known_.max = known_.max.cwiseMax(corner + VoxelIndex::Constant(kBlockSide - 1));
     const VoxelIndex at = corner - origin_;
     const VoxelIndex first = (-at).cwiseMax(0);
     const VoxelIndex end = (size_ - at).cwiseMin(kBlockSide);
@@ -53,6 +56,9 @@ class BlockCopier {
       }
     }
   }
+
+  /// Around the blocks that hold something known.
+  [[nodiscard]] const Extent& known() const { return known_; }
 
  private:
   /// Voxels first..end-1 of a row of eight, to `cell` and on.
@@ -83,6 +89,7 @@ class BlockCopier {
   VoxelIndex size_;
   std::uint8_t* cells_;
   std::uint8_t* packed_;
+  Extent known_{VoxelIndex::Constant(1 << 30), VoxelIndex::Constant(-(1 << 30))};
 };
 
 void copyChunk(const StatusChunk& chunk, const VoxelIndex& first, const VoxelIndex& last,
@@ -110,6 +117,8 @@ LocalWindow::LocalWindow(const FrozenMap& map, const AxisAlignedBox& region)
   packed_.resize(cells_.size() / 4 + 1 + kReadableBeyond);
   BlockCopier copier(origin_, size_, cells_.data(), packed_.data());
   for (const auto& chunk : map.blocks().chunks) copyChunk(*chunk, origin_, last, copier);
+  known_first_ = copier.known().min;
+  known_last_ = copier.known().max;
 }
 
 LocalWindow LocalWindow::withCells(std::vector<std::uint8_t> cells) const {

@@ -39,25 +39,26 @@ void markWalk(const AxisWalk& x, const AxisWalk& y, const AxisWalk& z, PackedKey
   double next_z = z.next_border;
   PackedKey block = ~PackedKey{0};
   std::uint64_t* words = nullptr;
-  for (;;) {
+  double limit = std::numeric_limits<double>::infinity();  // the first voxel always counts
+  // Marks the voxel and leaves it by its nearest border; false if that lies beyond the ray's end:
+  // rounding can lead the walk past the end's voxel.
+  const auto leave = [&](double& border, const AxisWalk& axis) {
+    if (border > limit) return false;
     if ((key & ~kInBlockMask) != block) {
       block = key & ~kInBlockMask;
       words = marks.block(marks.touch(key)).free.data();
     }
     words[wordOf(key)] |= std::uint64_t{1} << bitOf(key);
-    if (next_x < next_y && next_x < next_z) {
-      key += x.step;
-      next_x += x.border_spacing;
-    } else if (!(next_x < next_y) && next_y < next_z) {
-      key += y.step;
-      next_y += y.border_spacing;
-    } else {
-      key += z.step;
-      next_z += z.border_spacing;
-    }
-    if (key == end_key) return;
-    // Rounding can lead the walk past the end's voxel: OctoMap stops at the ray's length.
-    if (next_x > length && next_y > length && next_z > length) return;
+    key += axis.step;
+    border += axis.border_spacing;
+    limit = length;
+    return key != end_key;
+  };
+  for (bool is_going = true; is_going;) {
+    if (next_x < next_y)
+      is_going = next_x < next_z ? leave(next_x, x) : leave(next_z, z);
+    else
+      is_going = next_y < next_z ? leave(next_y, y) : leave(next_z, z);
   }
 }
 

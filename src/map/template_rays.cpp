@@ -37,7 +37,7 @@ TemplateRays::TemplateRays(const SensorModel& sensor, double resolution_m)
       fov_vertical_(sensor.fov_vertical_deg * kDegree),
       is_level_(sensor.mount_pitch_deg == 0.0) {
   const double range_voxels = sensor.gain_range_m / resolution_m;
-  require(range_voxels > 0.0 && range_voxels < std::numeric_limits<std::int16_t>::max(),
+  require(range_voxels > 0.0 && range_voxels < 30000.0,
           "GainEvaluator: gain range does not suit the resolution");
   require(sensor.gain_resolution_deg > 0.0, "GainEvaluator: gain resolution must be positive");
   circle_columns_ = std::max(1, roundedRatio(360.0, sensor.gain_resolution_deg));
@@ -112,6 +112,19 @@ void TemplateRays::addRay(const Eigen::Vector3d& direction, double range_voxels)
     steps_.push_back(step);
   }
   rays_.push_back({begin, static_cast<std::uint32_t>(steps_.size()), step});
+  addCrossings(rays_.back());
+}
+
+void TemplateRays::addCrossings(Ray& ray) {
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    ray.crossings[axis] = static_cast<std::uint32_t>(crossings_.size());
+    int offset = 0;
+    for (std::uint32_t i = ray.begin; i < ray.end; ++i) {
+      if (steps_[i][axis] == offset) continue;
+      offset = steps_[i][axis];
+      crossings_.push_back(static_cast<std::uint16_t>(i - ray.begin));
+    }
+  }
 }
 
 }  // namespace spelunk::map

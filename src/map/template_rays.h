@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <vector>
@@ -18,7 +19,17 @@ class TemplateRays {
   struct Ray {
     std::uint32_t begin;
     std::uint32_t end;
-    Step last;  ///< The step before `end`.
+    Step last;                                 ///< The step before `end`.
+    std::array<std::uint32_t, 3> crossings{};  ///< Where `crossings_` of each axis begin.
+  };
+  /// Closed range of offsets.
+  struct Range {
+    VoxelIndex first;
+    VoxelIndex last;
+
+    [[nodiscard]] bool contains(const VoxelIndex& offset) const {
+      return (offset.array() >= first.array()).all() && (offset.array() <= last.array()).all();
+    }
   };
   /// Rays of one heading: `count` rays of `rays()` from `first` on, around its end.
   struct Heading {
@@ -31,12 +42,27 @@ class TemplateRays {
   /// Rays at the base's `yaw`, rounded to the nearest of the headings kept: multiples of the angle
   /// between rays for a level sensor, at least that for a pitched one.
   [[nodiscard]] Heading headingAt(double yaw) const;
+  /// Number of steps before the ray leaves `range`, which must contain offset 0. A ray leaves a box
+  /// once, so these are all of its steps inside.
+  [[nodiscard]] std::size_t stepsInside(const Ray& ray, const Range& range) const {
+    std::size_t count = ray.end - ray.begin;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const int last = ray.last[axis];
+      const auto i = static_cast<int>(axis);
+      const int allowed = last < 0 ? -range.first(i) : range.last(i);
+      if ((last < 0 ? -last : last) <= allowed) continue;
+      const std::size_t crossing = ray.crossings[axis] + static_cast<std::size_t>(allowed);
+      count = std::min<std::size_t>(count, crossings_[crossing]);
+    }
+    return count;
+  }
   [[nodiscard]] const std::vector<Ray>& rays() const { return rays_; }
   [[nodiscard]] const std::vector<Step>& steps() const { return steps_; }
   [[nodiscard]] const Eigen::Vector3d& mount() const { return mount_m_; }
 
  private:
   void addRay(const Eigen::Vector3d& direction, double range_voxels);
+  void addCrossings(Ray& ray);
   void addLevelCircle(double range_voxels);
   void addPitchedHeadings(const SensorModel& sensor, double range_voxels);
   [[nodiscard]] double elevationOf(int row) const;
@@ -52,6 +78,7 @@ class TemplateRays {
   bool is_level_ = true;
   std::vector<Ray> rays_;
   std::vector<Step> steps_;
+  std::vector<std::uint16_t> crossings_;  ///< By ray, axis, k: steps before the offset exceeds k.
 };
 
 }  // namespace spelunk::map

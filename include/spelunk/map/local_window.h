@@ -45,6 +45,9 @@ class LocalWindow {
   /// The same with two bits a voxel, the first in the lowest bits of a byte; eight bytes beyond the
   /// last are readable. A quarter of the memory, so more of it stays in the caches.
   [[nodiscard]] const std::vector<std::uint8_t>& packedCells() const { return packed_; }
+  /// Indices of a box outside which every voxel is unknown; first > last if all are.
+  [[nodiscard]] const VoxelIndex& knownFirst() const { return known_first_; }
+  [[nodiscard]] const VoxelIndex& knownLast() const { return known_last_; }
   [[nodiscard]] AxisAlignedBox region() const;
 
   [[nodiscard]] std::size_t offsetOf(const VoxelIndex& local) const {
@@ -61,6 +64,8 @@ class LocalWindow {
   double resolution_m_;
   VoxelIndex origin_;
   VoxelIndex size_;
+  VoxelIndex known_first_;
+  VoxelIndex known_last_;
   std::vector<std::uint8_t> cells_;
   std::vector<std::uint8_t> packed_;
 };

@@ -21,8 +21,8 @@ struct MapParams {
   double resolution_m = 0.2;
   double range_max_m = 50.0;
   double range_min_m = 0.4;
-  double hit_probability = 0.7;
-  double miss_probability = 0.4;
+  double hit_probability = 0.9;
+  double miss_probability = 0.45;
   double clamp_min_probability = 0.12;
   double clamp_max_probability = 0.97;
   double occupied_probability = 0.5;
