@@ -27,7 +27,7 @@ class BadInput(unittest.TestCase):
     def setUpClass(cls):
         rospy.init_node("bad_input_test")
         cls.status = Listener("status", PlannerStatus)
-        cls.log = Listener("/rosout_agg", Log)
+        cls.log = Listener("/rosout", Log)
         cls.robot = MadeUpRobot()
         rospy.wait_for_service("planner_node/start", timeout=20.0)
 
@@ -124,7 +124,7 @@ class BadInput(unittest.TestCase):
         since = self.log.count()
         self.send(6.0, cloud=spoil)
         lines = [entry for entry in self.log.messages[since:] if "frame_id" in entry.msg]
-        self.assertLessEqual(len(lines), 2, "60 bad clouds")
+        self.assertIn(len(lines), (1, 2), "60 bad clouds")
 
     def test_e_missing_odometry_holds_and_what_was_gathered_is_kept(self):
         rospy.ServiceProxy("planner_node/start", Trigger)()
@@ -141,7 +141,7 @@ class BadInput(unittest.TestCase):
         self.assertNotIn(states[-1], ("Explore", "Reposition"), states)
         self.assertGreaterEqual(self.status.latest().explored_volume_m3, before)
 
-    def test_e_a_jump_of_metres_holds(self):
+    def test_e_a_jump_of_metres_is_said(self):
         rospy.ServiceProxy("planner_node/start", Trigger)()
         since_status, since_log = self.status.count(), self.log.count()
         self.robot.position = np.array([3.0, 2.0, 0.0])
@@ -150,8 +150,8 @@ class BadInput(unittest.TestCase):
         self.send(1.5)
         self.assertIsNotNone(self.log.wait(lambda entry: "jumped by 3.6" in entry.msg, 2.0,
                                            since_log))
-        states = [status.state for status in self.status.messages[since_status:]]
-        self.assertTrue({"Hold", "Home", "Done"} & set(states), states)
+        said = [status.reason for status in self.status.messages[since_status:]]
+        self.assertTrue(any("jumped" in reason for reason in said), said)
 
     def test_f_good_input_clears_the_problem(self):
         self.send(6.0)
