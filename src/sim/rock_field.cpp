@@ -11,6 +11,8 @@ namespace {
 constexpr double kRock = 1e3;
 constexpr double kBelowFloor = 0.8;  ///< How far a space's body reaches under its own floor.
 
+constexpr double kContrast = 1.7;  ///< Value noise seldom comes near its ends.
+
 double mix(double a, double b, double t) { return a + (b - a) * t; }
 
 /// Signed distance to a rounded corner region q <= 0 of two half spaces.
@@ -28,6 +30,7 @@ RockField::RockField(const WorldPlan& plan)
     : pillars_(plan.pillars),
       roughness_m_(plan.roughness_m),
       blend_m_(plan.blend_m),
+      grain_m_(plan.grain_m),
       cell_m_(plan.cell_m),
       seed_(plan.seed) {
   int group = 0;
@@ -141,8 +144,12 @@ RockField::Sample RockField::blended(const Eigen::Vector3d& point,
 
 double RockField::roughness(const Eigen::Vector3d& point, double above_floor) const {
   if (roughness_m_ <= 0.0) return 0.0;
-  const double coarse = rockNoise(point, std::max(3.5, 5.0 * cell_m_), seed_);
-  const double fine = rockNoise(point, std::max(1.3, 2.5 * cell_m_), seed_ + 1);
+  const auto octave = [&](double wavelength_m, std::uint64_t seed) {
+    const double noise = rockNoise(point, std::max(wavelength_m, 2.5 * cell_m_), seed);
+    return std::clamp(0.5 + kContrast * (noise - 0.5), 0.0, 1.0);
+  };
+  const double coarse = octave(grain_m_, seed_);
+  const double fine = octave(0.4 * grain_m_, seed_ + 1);
   const double wall_share = std::clamp(above_floor / 0.8, 0.0, 1.0);
   return roughness_m_ * mix(0.25, 1.0, wall_share) * (0.7 * coarse + 0.3 * fine);
 }

@@ -14,6 +14,7 @@ struct CommonParams {
   int seed = 1;
   double cell_m = 0.5;
   double roughness_m = 0.3;
+  double grain_m = 3.5;
   double blend_m = 0.8;
 
   template <class Visitor>
@@ -22,6 +23,7 @@ struct CommonParams {
     field("seed", seed, Bounds{0, 2e9}, "another seed, another world of the same kind");
     field("cell_m", cell_m, Bounds{0.1, 2.0}, "grid of the surface");
     field("roughness_m", roughness_m, Bounds{0.0, 2.0}, "depth of the roughness of walls");
+    field("grain_m", grain_m, Bounds{0.5, 30.0}, "size of the bulges of that roughness");
     field("blend_m", blend_m, Bounds{0.05, 5.0}, "rounding where spaces meet");
   }
 };
@@ -99,6 +101,7 @@ WorldPlan planWorld(const std::string& description_path) {
   plan.name = std::filesystem::path(description_path).stem().string();
   plan.cell_m = common.cell_m;
   plan.roughness_m = common.roughness_m;
+  plan.grain_m = common.grain_m;
   plan.blend_m = common.blend_m;
   plan.seed = static_cast<std::uint64_t>(common.seed);
   plan.start = {{start.x_m, start.y_m, start.z_m}, start.yaw_rad};

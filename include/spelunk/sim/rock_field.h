@@ -56,6 +56,7 @@ class RockField {
   std::vector<Pillar> pillars_;
   double roughness_m_;
   double blend_m_;
+  double grain_m_;
   double cell_m_;
   std::uint64_t seed_;
 };

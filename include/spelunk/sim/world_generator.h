@@ -8,7 +8,7 @@
 namespace spelunk::sim {
 
 /// Changes whenever the same description gives another mesh; part of a cache's key.
-inline constexpr int kWorldGeneratorVersion = 1;
+inline constexpr int kWorldGeneratorVersion = 2;
 
 /// The mesh of a description (worlds/<name>.yaml): closed, every edge shared by exactly two
 /// triangles, normals towards the free space, one connected free space around the start; the same

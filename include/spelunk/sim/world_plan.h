@@ -52,6 +52,7 @@ struct WorldPlan {
   std::vector<Pillar> pillars;
   Pose start;
   double roughness_m = 0.3;  ///< Greatest depth of the roughness of walls; floors have a quarter.
+  double grain_m = 3.5;      ///< Size of the bulges of that roughness.
   double blend_m = 0.8;      ///< Over this distance neighbouring spaces run into each other.
   double cell_m = 0.5;       ///< Grid of the surface.
   std::uint64_t seed = 1;

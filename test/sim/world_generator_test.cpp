@@ -1,0 +1,249 @@
+#include "spelunk/sim/world_generator.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "spelunk/common/contract.h"
+#include "spelunk/sim/mesh_scene.h"
+#include "support/mesh_checks.h"
+#include "support/temporary_folder.h"
+
+namespace spelunk::sim {
+namespace {
+
+const Eigen::Vector3d kRobotBox(1.1, 1.1, 0.4);
+
+std::string shipped(const std::string& name) {
+  return std::string(SPELUNK_SOURCE_DIR) + "/worlds/" + name + ".yaml";
+}
+
+/// Plan, mesh and scene of a shipped world, made once a process.
+struct World {
+  explicit World(const std::string& name)
+      : plan(planWorld(shipped(name))), mesh(meshOf(plan)), scene(mesh) {}
+  WorldPlan plan;
+  WorldMesh mesh;
+  MeshScene scene;
+
+  [[nodiscard]] bool fits(const Eigen::Vector3d& centre) const {
+    return scene.boxDistance(centre, kRobotBox, 0.1) > 0.0;
+  }
+};
+
+const World& world(const std::string& name) {
+  static std::map<std::string, World> worlds;
+  const auto found = worlds.find(name);
+  return found != worlds.end() ? found->second : worlds.try_emplace(name, name).first->second;
+}
+
+/// Points every 0.4 m along the middle of all passages, one metre above the floor.
+std::vector<Eigen::Vector3d> skeletonOf(const WorldPlan& plan) {
+  std::vector<Eigen::Vector3d> points;
+  for (const Passage& passage : plan.passages) {
+    for (std::size_t i = 1; i < passage.stations.size(); ++i) {
+      const Station& a = passage.stations[i - 1];
+      const Station& b = passage.stations[i];
+      const int steps = static_cast<int>(std::ceil((b.floor - a.floor).norm() / 0.4));
+      for (int k = 0; k < steps; ++k)
+        points.emplace_back(a.floor + (b.floor - a.floor) * k / steps +
+                            Eigen::Vector3d(0.0, 0.0, 1.0));
+    }
+  }
+  return points;
+}
+
+/// Share of the skeleton that the robot's box reaches from the start, moving between neighbouring
+/// points that are less than 1.2 m apart and checking five places on the way.
+double reachedShare(const World& at) {
+  std::vector<Eigen::Vector3d> points = skeletonOf(at.plan);
+  const std::size_t all = points.size();
+  points.erase(std::remove_if(points.begin(), points.end(),
+                              [&](const Eigen::Vector3d& p) { return !at.fits(p); }),
+               points.end());
+  std::sort(points.begin(), points.end(), [](const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
+    return std::lexicographical_compare(a.data(), a.data() + 3, b.data(), b.data() + 3);
+  });
+  const auto canMove = [&](const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
+    for (int k = 1; k <= 5; ++k)
+      if (!at.fits(a + (b - a) * k / 6.0)) return false;
+    return true;
+  };
+  std::vector<char> reached(points.size(), 0);
+  std::vector<std::size_t> open;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if ((points[i] - at.plan.start.position).norm() > 1.5) continue;
+    reached[i] = 1;
+    open.push_back(i);
+  }
+  std::size_t count = open.size();
+  while (!open.empty()) {
+    const Eigen::Vector3d here = points[open.back()];
+    open.pop_back();
+    auto low = std::lower_bound(points.begin(), points.end(), here.x() - 1.2,
+                                [](const Eigen::Vector3d& p, double x) { return p.x() < x; });
+    for (; low != points.end() && low->x() < here.x() + 1.2; ++low) {
+      const auto i = static_cast<std::size_t>(low - points.begin());
+      if (reached[i] != 0 || (*low - here).norm() > 1.2 || !canMove(here, *low)) continue;
+      reached[i] = 1;
+      ++count;
+      open.push_back(i);
+    }
+  }
+  return static_cast<double>(count) / static_cast<double>(all);
+}
+
+struct Expectation {
+  const char* name;
+  std::uint64_t hash;
+  double volume_min_m3;
+  double volume_max_m3;
+};
+
+class ShippedWorld : public testing::TestWithParam<Expectation> {};
+
+TEST_P(ShippedWorld, IsClosedAndOfTheSizeToBeExpected) {
+  const World& at = world(GetParam().name);
+  EXPECT_EQ(test::openEdges(at.mesh), 0);
+  EXPECT_LT(at.mesh.triangles.size(), 300000U);
+  EXPECT_GT(test::enclosedVolume(at.mesh), GetParam().volume_min_m3);
+  EXPECT_LT(test::enclosedVolume(at.mesh), GetParam().volume_max_m3);
+}
+
+TEST_P(ShippedWorld, HasTheBitsItHasOnEveryMachine) {
+  EXPECT_EQ(test::hashOf(world(GetParam().name).mesh), GetParam().hash)
+      << "the mesh of '" << GetParam().name << "' changed; raise kWorldGeneratorVersion (now "
+      << kWorldGeneratorVersion << ") or caches keep the old one";
+}
+
+TEST_P(ShippedWorld, LeavesRoomAtTheStart) {
+  const World& at = world(GetParam().name);
+  ASSERT_TRUE(at.mesh.start.has_value());
+  const Eigen::Vector3d start = at.mesh.start->position;
+  EXPECT_GT(at.scene.boxDistance(start, kRobotBox, 1.0), 0.3);
+  std::vector<float> down;
+  at.scene.castFan(start.cast<float>(), {{0.0F, 0.0F, -1.0F}}, 10.0F, down);
+  EXPECT_NEAR(down[0], 1.0F, 0.3F);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    All, ShippedWorld,
+    testing::Values(Expectation{"long_wall", 1458682609187250659ULL, 12000, 24000},
+                    Expectation{"room_and_pillar", 5248636625113724989ULL, 50000, 90000},
+                    Expectation{"cave", 5647964739153747146ULL, 12000, 26000},
+                    Expectation{"room", 18286154345773577104ULL, 450, 600},
+                    Expectation{"tiny_maze", 3206369154968430270ULL, 800, 1200}),
+    [](const auto& instance) { return std::string(instance.param.name); });
+
+class ShippedMine : public testing::TestWithParam<const char*> {};
+
+TEST_P(ShippedMine, CanBeFlownAlongAlmostAllOfItsPassages) {
+  EXPECT_GE(reachedShare(world(GetParam())), 0.95);
+}
+
+TEST_P(ShippedMine, IsNowhereNarrowerThanPlanned) {
+  const World& at = world(GetParam());
+  int narrower = 0;
+  int measured = 0;
+  for (const Passage& passage : at.plan.passages) {
+    for (std::size_t i = 1; i + 1 < passage.stations.size(); ++i) {
+      const Eigen::Vector3d axis = passage.stations[i + 1].floor - passage.stations[i - 1].floor;
+      const Eigen::Vector3f side =
+          Eigen::Vector3d(-axis.y(), axis.x(), 0.0).normalized().cast<float>();
+      const Eigen::Vector3d middle = passage.stations[i].floor + Eigen::Vector3d(0.0, 0.0, 1.0);
+      std::vector<float> ranges;
+      at.scene.castFan(middle.cast<float>(), {side, -side}, 50.0F, ranges);
+      const double tolerance = 0.12 * at.plan.cell_m + 0.05;
+      const double at_bend = 0.93;  // The wall of a bend runs askew to its station.
+      narrower += ranges[0] + ranges[1] < at_bend * passage.stations[i].width - tolerance ? 1 : 0;
+      ++measured;
+    }
+  }
+  EXPECT_GT(measured, 30);
+  EXPECT_EQ(narrower, 0) << "of " << measured;
+}
+
+INSTANTIATE_TEST_SUITE_P(All, ShippedMine, testing::Values("long_wall", "room_and_pillar", "cave"),
+                         [](const auto& instance) { return std::string(instance.param); });
+
+TEST(LongWall, HasTheLengthAndWidthsOfTheDefaultMine) {
+  const WorldPlan& plan = world("long_wall").plan;
+  EXPECT_GT(passageLength(plan), 1200.0);
+  EXPECT_LT(passageLength(plan), 1800.0);
+  for (const Passage& passage : plan.passages) {
+    for (const Station& station : passage.stations) {
+      EXPECT_GE(station.width, 2.0);
+      EXPECT_LE(station.width, 4.0);
+    }
+  }
+}
+
+TEST(RoomAndPillar, HasOneNarrowestOpening) {
+  const WorldPlan& plan = world("room_and_pillar").plan;
+  const auto isSqueeze = [](const Passage& p) { return p.stations[1].width < 1.9; };
+  EXPECT_EQ(std::count_if(plan.passages.begin(), plan.passages.end(), isSqueeze), 1);
+  const Eigen::Vector3d size = world("room_and_pillar").mesh.bounds().size();
+  EXPECT_GT(size.x(), 200.0);
+}
+
+TEST(GenerateWorld, GivesTheSameBytesTwice) {
+  const WorldMesh again = generateWorld(shipped("tiny_maze"));
+  EXPECT_EQ(test::hashOf(again), test::hashOf(world("tiny_maze").mesh));
+  EXPECT_EQ(again.name, "tiny_maze");
+}
+
+/// What planning a description says; empty if nothing.
+std::string complaintOn(const std::string& text) {
+  const test::TemporaryFolder folder;
+  const std::string path = folder.write("odd.yaml", text);
+  try {
+    static_cast<void>(generateWorld(path));
+  } catch (const OutsideError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(GenerateWorld, AnotherSeedIsAnotherWorld) {
+  const test::TemporaryFolder folder;
+  const auto hashWithSeed = [&](int seed) {
+    const std::string text = "kind: maze\nseed: " + std::to_string(seed) + "\n";
+    return test::hashOf(generateWorld(folder.write("maze.yaml", text)));
+  };
+  EXPECT_NE(hashWithSeed(1), hashWithSeed(2));
+}
+
+TEST(GenerateWorld, NamesEveryProblemOfADescriptionAndTheKnownNames) {
+  const std::string complaint =
+      complaintOn("kind: maze\nwidht_m: 3\npitch_m: -1\nrows: many\nseed: 1\n");
+  EXPECT_NE(complaint.find("widht_m"), std::string::npos) << complaint;
+  EXPECT_NE(complaint.find("pitch_m = -1"), std::string::npos) << complaint;
+  EXPECT_NE(complaint.find("rows = 'many'"), std::string::npos) << complaint;
+  EXPECT_NE(complaint.find("known names: kind, seed"), std::string::npos) << complaint;
+}
+
+TEST(GenerateWorld, RefusesAnUnknownKindAndListsTheKinds) {
+  const std::string complaint = complaintOn("kind: volcano\n");
+  EXPECT_NE(complaint.find("volcano"), std::string::npos);
+  EXPECT_NE(complaint.find("drifts, rooms, cave, room or maze"), std::string::npos);
+}
+
+TEST(GenerateWorld, RefusesAMinimumAboveItsMaximum) {
+  EXPECT_NE(complaintOn("kind: drifts\nwidth_min_m: 5\nwidth_max_m: 3\n")
+                .find("width_min_m must not exceed width_max_m"),
+            std::string::npos);
+}
+
+TEST(GenerateWorld, RefusesAStartInRock) {
+  const std::string complaint = complaintOn("kind: room\nstart: {x_m: 30, y_m: 0}\n");
+  EXPECT_NE(complaint.find("start.x_m"), std::string::npos) << complaint;
+}
+
+TEST(GenerateWorld, NamesAMissingDescription) {
+  EXPECT_THROW(static_cast<void>(generateWorld("/no/such/world.yaml")), OutsideError);
+}
+
+}  // namespace
+}  // namespace spelunk::sim
