@@ -10,6 +10,20 @@ namespace spelunk::planners::gbplanner {
 using graph::Polyline;
 using graph::VertexId;
 
+namespace {
+
+/// The vertices of a path and points between them, at most `spacing_m` apart.
+Polyline subdivided(const Polyline& path, double spacing_m) {
+  Polyline line{path.front()};
+  for (std::size_t i = 1; i < path.size(); ++i) {
+    const Polyline edge = graph::resampled({path[i - 1], path[i]}, spacing_m);
+    line.insert(line.end(), edge.begin() + 1, edge.end());
+  }
+  return line;
+}
+
+}  // namespace
+
 void GlobalGraph::setHome(const Eigen::Vector3d& position) {
   require(isEmpty(), "GlobalGraph: home must be the first vertex");
   last_flown_ = graph_.addVertex(position);
@@ -49,20 +63,20 @@ VertexId GlobalGraph::addPoint(const Eigen::Vector3d& point, const FreeSpace& sp
 
 VertexId GlobalGraph::addPath(const Polyline& path, const FreeSpace& space) {
   require(!path.empty(), "GlobalGraph: empty path");
-  VertexId last = addPoint(path.front(), space);
-  for (std::size_t i = 1; i < path.size(); ++i) {
-    const Polyline edge = graph::resampled({path[i - 1], path[i]}, limits_.spacing_m);
-    for (std::size_t k = 1; k < edge.size(); ++k) {
-      const auto existing = findMergeable(edge[k]);
-      const bool reuses =
-          existing && space.isFree(graph_.position(last), graph_.position(*existing));
-      const VertexId next = reuses ? *existing : graph_.addVertex(edge[k]);
-      join(last, next);
-      if (!reuses) connect(next, space);
-      last = next;
-    }
+  const Polyline line = subdivided(path, limits_.spacing_m);
+  std::optional<VertexId> last;
+  for (std::size_t k = 0; k < line.size(); ++k) {
+    // An old vertex beside the line takes the place of a new one if the path stays free through it.
+    const auto old = findMergeable(line[k]);
+    const bool takes_old =
+        old && space.isFree(last ? graph_.position(*last) : line[k], graph_.position(*old)) &&
+        (k + 1 == line.size() || space.isFree(graph_.position(*old), line[k + 1]));
+    const VertexId next = takes_old ? *old : graph_.addVertex(line[k]);
+    if (last) join(*last, next);
+    if (!takes_old) connect(next, space);
+    last = next;
   }
-  return last;
+  return *last;
 }
 
 VertexId GlobalGraph::addFlown(const Eigen::Vector3d& point, const FreeSpace& space) {
