@@ -113,6 +113,8 @@ LocalWindow::LocalWindow(const FrozenMap& map, const AxisAlignedBox& region)
   const Eigen::Vector3d size = last.cast<double>().array() - origin_.cast<double>().array() + 1.0;
   require(size.prod() < 2147483648.0, "LocalWindow: region has more than 2^31 voxels");
   size_ = last - origin_ + VoxelIndex::Ones();
+  row_cells_ = static_cast<std::size_t>(size_.x());
+  plane_cells_ = row_cells_ * static_cast<std::size_t>(size_.y());
   cells_.resize(static_cast<std::size_t>(size.prod()));
   packed_.resize(cells_.size() / 4 + 1 + kReadableBeyond);
   BlockCopier copier(origin_, size_, cells_.data(), packed_.data());
@@ -132,7 +134,23 @@ LocalWindow LocalWindow::withCells(std::vector<std::uint8_t> cells) const {
         static_cast<std::uint8_t>((four | four >> 6 | four >> 12 | four >> 18) & 0xFFU);
   }
   changed.cells_ = std::move(cells);
+  changed.boundKnownRows();
   return changed;
+}
+
+void LocalWindow::boundKnownRows() {
+  VoxelIndex first(0, size_.y(), size_.z());
+  VoxelIndex last(-1, -1, -1);
+  const std::uint8_t* row = cells_.data();
+  for (int z = 0; z < size_.z(); ++z)
+    for (int y = 0; y < size_.y(); ++y, row += row_cells_) {
+      if (std::all_of(row, row + row_cells_, [](std::uint8_t cell) { return cell == 0; })) continue;
+      first = first.cwiseMin(VoxelIndex(0, y, z));
+      last = last.cwiseMax(VoxelIndex(0, y, z));
+    }
+  last.x() = size_.x() - 1;
+  known_first_ = origin_ + first;
+  known_last_ = origin_ + last;
 }
 
 VoxelIndex LocalWindow::indexOf(const Eigen::Vector3d& point) const {

@@ -38,7 +38,10 @@ TEST(OccupancyMap, RayIsFreeAndItsEndOccupied) {
 }
 
 TEST(OccupancyMap, ReportsOnlyWhatChanges) {
-  OccupancyMap map{MapParams{}};
+  MapParams params;
+  params.hit_probability = 0.7;
+  params.miss_probability = 0.4;
+  OccupancyMap map(params);
   const Scan scan = scanOf({0.1, 0.1, 0.1}, {{2.0F, 0.0F, 0.0F}});
   map.insert(scan, noBody());
   const MapUpdate again = map.insert(scan, noBody());
@@ -139,7 +142,7 @@ TEST(OccupancyMap, MarkFreeFreesUnknownVoxelsOnly) {
   EXPECT_EQ(map.at({2.1, 0.1, 0.1}), Occupancy::kOccupied);
   EXPECT_EQ(map.at({2.3, 0.3, -0.1}), Occupancy::kFree);
   EXPECT_EQ(map.at({2.5, 0.1, 0.1}), Occupancy::kUnknown) << "a box that ends on a face";
-  EXPECT_EQ(map.octree().search(2.3, 0.3, -0.1)->getLogOdds(), octomap::logodds(0.4));
+  EXPECT_EQ(map.octree().search(2.3, 0.3, -0.1)->getLogOdds(), octomap::logodds(MapParams{}.miss_probability));
 }
 
 TEST(OccupancyMap, MarkFreeHoldsEvenIfOneMissIsNotEnough) {

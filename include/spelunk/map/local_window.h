@@ -31,7 +31,7 @@ class LocalWindow {
     const unsigned z = local(2);
     const auto size = [&](int axis) { return static_cast<unsigned>(size_(axis)); };
     if (x >= size(0) || y >= size(1) || z >= size(2)) return Occupancy::kUnknown;
-    const std::size_t cell = x + std::size_t{size(0)} * (y + std::size_t{size(1)} * z);
+    const std::size_t cell = x + row_cells_ * y + plane_cells_ * z;
     return static_cast<Occupancy>((packed_[cell / 4] >> (2 * (cell % 4))) & 3);
   }
   [[nodiscard]] Occupancy at(const Eigen::Vector3d& point) const { return at(indexOf(point)); }
@@ -58,14 +58,22 @@ class LocalWindow {
   }
 
  private:
-  LocalWindow(double resolution_m, VoxelIndex origin, VoxelIndex size)
-      : resolution_m_(resolution_m), origin_(std::move(origin)), size_(std::move(size)) {}
+  LocalWindow(double resolution_m, const VoxelIndex& origin, const VoxelIndex& size)
+      : resolution_m_(resolution_m),
+        origin_(origin),
+        size_(size),
+        row_cells_(static_cast<std::size_t>(size.x())),
+        plane_cells_(row_cells_ * static_cast<std::size_t>(size.y())) {}
+  /// Sets the known box around all rows that hold something known.
+  void boundKnownRows();
 
   double resolution_m_;
   VoxelIndex origin_;
   VoxelIndex size_;
-  VoxelIndex known_first_;
-  VoxelIndex known_last_;
+  std::size_t row_cells_ = 0;    ///< Along x.
+  std::size_t plane_cells_ = 0;  ///< Along x and y.
+  VoxelIndex known_first_ = VoxelIndex::Constant(1 << 30);
+  VoxelIndex known_last_ = VoxelIndex::Constant(-(1 << 30));
   std::vector<std::uint8_t> cells_;
   std::vector<std::uint8_t> packed_;
 };
