@@ -1,0 +1,206 @@
+// Every planner of the factory goes through all of this.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "spelunk/common/contract.h"
+#include "spelunk/navigation/swept_path_check.h"
+#include "spelunk/planners/factory.h"
+#include "support/grid_world.h"
+
+namespace spelunk::planners {
+namespace {
+
+constexpr double kResolution = 0.25;
+
+RobotModel smallRobot() {
+  RobotModel robot;
+  robot.box_m = {0.8, 0.8, 0.4};
+  SensorModel sensor;
+  sensor.columns = 360;
+  sensor.fov_vertical_deg = 60.0;
+  sensor.range_max_m = 12.0;  // beyond the map's range: a miss frees its ray and hits nothing
+  sensor.gain_range_m = 10.0;
+  robot.sensor_models = {sensor};
+  return robot;
+}
+
+class EveryPlanner : public ::testing::TestWithParam<std::string> {
+ protected:
+  EveryPlanner() : planner_(makePlanner(GetParam(), tree_, robot_, kResolution)) {
+    map::MapParams params;
+    params.resolution_m = kResolution;
+    params.range_max_m = 10.0;
+    params.range_min_m = 0.0;
+    map_ = std::make_unique<map::OccupancyMap>(params);
+    request_.home = request_.pose = {{3.0, 2.5, 2.5}, 0.0};
+    request_.budget.iterations = 3000;
+    request_.rng = Rng(77);
+  }
+  /// What the robot sees of a corridor from a few places near its beginning.
+  void seeTheBeginningOf(const test::GridWorld& world) {
+    for (double x = 2.0; x < 4.0; x += 0.3) {
+      const Pose pose{{x, 2.5, 2.5}, 0.0};
+      map_->insert(world.scan(robot_.sensor_models.front(), pose, x),
+                   boxAround(pose.position, robot_.box_m));
+    }
+    map_->markFree(boxAround(request_.pose.position, robot_.box_m));
+    request_.map = map_->freeze();
+  }
+  void knowAllOf(const test::GridWorld& world) {
+    world.enterInto(*map_);
+    request_.map = map_->freeze();
+  }
+  void expectFreePathFromPose(const PlanResult& result) {
+    ASSERT_EQ(result.status, PlanStatus::kOk) << result.reason;
+    EXPECT_EQ(result.path.front().position, request_.pose.position);
+    EXPECT_EQ(result.path.front().yaw, request_.pose.yaw);
+    const navigation::PathCheck check = navigation::checkPath(
+        *request_.map, result.path, robot_.box_m, request_.zones, request_.bounds);
+    EXPECT_TRUE(check.isFree()) << toText(check.fault) << " at " << check.arc_m << " m";
+  }
+
+  RobotModel robot_ = smallRobot();
+  ParamTree tree_;
+  std::unique_ptr<ExplorationPlanner> planner_;
+  std::unique_ptr<map::OccupancyMap> map_;
+  PlanRequest request_;
+};
+
+TEST_P(EveryPlanner, ExploresALongCorridorOnAFreePath) {
+  seeTheBeginningOf(test::corridorWorld(40.0));
+  const PlanResult result = planner_->plan(request_);
+  expectFreePathFromPose(result);
+  ASSERT_FALSE(result.path.empty());
+  EXPECT_GT(result.path.back().position.x(), 5.0) << "the unknown lies ahead";
+  EXPECT_GT(result.stats.vertices, 1);
+  EXPECT_GE(result.stats.best_gain, result.stats.gain_threshold * 0.25);
+  EXPECT_GT(result.stats.total_ms, 0.0);
+}
+
+TEST_P(EveryPlanner, RepeatsWithTheSameSeed) {
+  seeTheBeginningOf(test::corridorWorld(40.0));
+  const auto other = makePlanner(GetParam(), tree_, robot_, kResolution);
+  for (int i = 0; i < 3; ++i) {
+    const PlanResult one = planner_->plan(request_);
+    const PlanResult two = other->plan(request_);
+    ASSERT_EQ(one.path.size(), two.path.size());
+    for (std::size_t k = 0; k < one.path.size(); ++k) {
+      EXPECT_EQ(one.path[k].position, two.path[k].position);
+      EXPECT_EQ(one.path[k].yaw, two.path[k].yaw);
+    }
+  }
+}
+
+TEST_P(EveryPlanner, ForgetsEverythingOnReset) {
+  seeTheBeginningOf(test::corridorWorld(40.0));
+  const PlanResult first = planner_->plan(request_);
+  planner_->reset();
+  EXPECT_EQ(planner_->graph().layers.back().vertices.size(), 0U);
+  const PlanResult again = planner_->plan(request_);
+  ASSERT_EQ(first.path.size(), again.path.size());
+  EXPECT_EQ(first.path.back().position, again.path.back().position);
+}
+
+TEST_P(EveryPlanner, ReportsNothingToGainInAFullyMappedRoom) {
+  knowAllOf(test::corridorWorld(12.0));
+  const PlanResult result = planner_->plan(request_);
+  EXPECT_EQ(result.status, PlanStatus::kNothingToGain) << result.reason;
+  EXPECT_EQ(result.reason, "explored: nothing reachable above g_e is left");
+}
+
+TEST_P(EveryPlanner, ReportsABlockedStart) {
+  knowAllOf(test::corridorWorld(12.0));
+  request_.pose.position = {0.3, 0.3, 0.3};
+  EXPECT_EQ(planner_->plan(request_).status, PlanStatus::kStartBlocked);
+  EXPECT_EQ(planner_->planHome(request_).status, PlanStatus::kStartBlocked);
+}
+
+TEST_P(EveryPlanner, ReportsAStartOutsideTheBoundsOrInsideAZone) {
+  seeTheBeginningOf(test::corridorWorld(40.0));
+  request_.bounds.min.x() = 5.0;
+  EXPECT_EQ(planner_->plan(request_).status, PlanStatus::kOutOfBounds);
+  request_.bounds = {};
+  request_.zones.push_back({"shaft", {{2.0, 1.0}, {4.0, 1.0}, {4.0, 4.0}, {2.0, 4.0}}});
+  EXPECT_EQ(planner_->plan(request_).status, PlanStatus::kOutOfBounds);
+}
+
+TEST_P(EveryPlanner, ReportsThatTheBudgetSaysHome) {
+  seeTheBeginningOf(test::corridorWorld(40.0));
+  request_.remaining_s = 0.5;
+  const PlanResult result = planner_->plan(request_);
+  EXPECT_EQ(result.status, PlanStatus::kBudgetSaysHome) << result.reason;
+}
+
+TEST_P(EveryPlanner, StaysOutOfNoGoZonesAndInsideTheBounds) {
+  seeTheBeginningOf(test::corridorWorld(40.0));
+  request_.zones.push_back({"shaft", {{7.0, 2.2}, {9.0, 2.2}, {9.0, 4.0}, {7.0, 4.0}}});
+  request_.bounds.max.x() = 20.0;
+  expectFreePathFromPose(planner_->plan(request_));
+}
+
+TEST_P(EveryPlanner, FindsItsWayHomeFromTheEndOfItsPath) {
+  seeTheBeginningOf(test::corridorWorld(40.0));
+  const PlanResult out = planner_->plan(request_);
+  ASSERT_EQ(out.status, PlanStatus::kOk);
+  request_.pose = out.path.back();
+  const PlanResult back = planner_->planHome(request_);
+  expectFreePathFromPose(back);
+  EXPECT_EQ(back.kind, PathKind::kHome);
+  EXPECT_LT(distance(back.path.back(), request_.home), 1e-9);
+  EXPECT_LT(lengthOf(back.path), lengthOf(out.path) * 1.5);
+}
+
+TEST_P(EveryPlanner, ReportsThatNoPathLeadsHome) {
+  seeTheBeginningOf(test::corridorWorld(40.0));
+  request_.home.position = {35.0, 2.5, 2.5};  // never seen
+  EXPECT_EQ(planner_->planHome(request_).status, PlanStatus::kNoPath);
+}
+
+TEST_P(EveryPlanner, DoesNotProposeATargetForeverThatIsRefusedEachTime) {
+  seeTheBeginningOf(test::corridorWorld(40.0));
+  const PlanResult first = planner_->plan(request_);
+  ASSERT_EQ(first.status, PlanStatus::kOk);
+  request_.last_outcome = PathOutcome::kRejectedUnsafe;
+  request_.last_reason = "meets an obstacle";
+  PlanResult result = first;
+  for (int i = 0; i < 60 && result.status == PlanStatus::kOk; ++i) result = planner_->plan(request_);
+  EXPECT_NE(result.status, PlanStatus::kOk) << "still tries after 60 refusals";
+  EXPECT_FALSE(result.reason.empty());
+}
+
+TEST_P(EveryPlanner, RefusesARequestThatBreaksTheContract) {
+  seeTheBeginningOf(test::corridorWorld(40.0));
+  PlanRequest broken = request_;
+  broken.pose.position.x() = std::nan("");
+  EXPECT_THROW(static_cast<void>(planner_->plan(broken)), Precondition);
+  broken = request_;
+  broken.map = nullptr;
+  EXPECT_THROW(static_cast<void>(planner_->plan(broken)), Precondition);
+  broken = request_;
+  broken.budget.iterations = 0;
+  EXPECT_THROW(static_cast<void>(planner_->planHome(broken)), Precondition);
+}
+
+INSTANTIATE_TEST_SUITE_P(OfTheFactory, EveryPlanner, ::testing::ValuesIn(plannerNames()),
+                         [](const auto& tested) { return tested.param; });
+
+TEST(PlannerFactory, ListsTheKnownNamesForAnUnknownOne) {
+  ParamTree tree;
+  try {
+    static_cast<void>(makePlanner("gbplaner", tree, smallRobot(), kResolution));
+    FAIL() << "an unknown name was accepted";
+  } catch (const OutsideError& error) {
+    EXPECT_NE(std::string(error.what()).find("gbplanner"), std::string::npos);
+  }
+}
+
+TEST(PlannerFactory, ReadsTheShippedParametersWithoutAProblem) {
+  ParamTree tree;
+  tree.addYamlFile(std::string(SPELUNK_SOURCE_DIR) + "/config/planners/gbplanner.yaml");
+  static_cast<void>(makePlanner("gbplanner", tree, smallRobot(), kResolution));
+  EXPECT_NO_THROW(tree.requireClean());
+}
+
+}  // namespace
+}  // namespace spelunk::planners

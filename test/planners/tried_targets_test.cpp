@@ -1,0 +1,43 @@
+#include "spelunk/planners/gbplanner/tried_targets.h"
+
+#include <gtest/gtest.h>
+
+namespace spelunk::planners::gbplanner {
+namespace {
+
+const Eigen::Vector3d kTarget(5.0, 0.0, 1.0);
+
+TEST(TriedTargets, IgnoresOutcomesThatAreNoFailure) {
+  TriedTargets tried(3.0);
+  for (int i = 0; i < 10; ++i) {
+    tried.note(kTarget, PathOutcome::kReached, "");
+    tried.note(kTarget, PathOutcome::kReplaced, "");
+  }
+  EXPECT_FALSE(tried.findRefusal(kTarget).has_value());
+}
+
+TEST(TriedTargets, GivesUpAfterRepeatedFailuresAndSaysWhy) {
+  TriedTargets tried(3.0);
+  tried.note(kTarget, PathOutcome::kRejectedUnsafe, "meets an obstacle");
+  EXPECT_FALSE(tried.findRefusal(kTarget).has_value());
+  tried.note(kTarget + Eigen::Vector3d(1.0, 0.0, 0.0), PathOutcome::kRejectedUnsafe, "wall");
+  ASSERT_TRUE(tried.findRefusal(kTarget).has_value());
+  EXPECT_EQ(*tried.findRefusal(kTarget), "tried and given up: wall");
+  EXPECT_FALSE(tried.findRefusal(kTarget + Eigen::Vector3d(9.0, 0.0, 0.0)).has_value());
+}
+
+TEST(TriedTargets, DoNotAddUpDifferentReasons) {
+  TriedTargets tried(3.0);
+  tried.note(kTarget, PathOutcome::kRejectedUnsafe, "wall");
+  tried.note(kTarget, PathOutcome::kBlocked, "rock");
+  EXPECT_FALSE(tried.findRefusal(kTarget).has_value());
+}
+
+TEST(TriedTargets, NeedOneRefusalForABudgetThatOnlyShrinks) {
+  TriedTargets tried(3.0);
+  tried.note(kTarget, PathOutcome::kRejectedBudget, "no way home fits");
+  EXPECT_TRUE(tried.findRefusal(kTarget).has_value());
+}
+
+}  // namespace
+}  // namespace spelunk::planners::gbplanner
