@@ -60,6 +60,7 @@ void PlannerInputs::forgetAfterClockJump() {
   });
   if (jumps == jumps_seen_) return;
   jumps_seen_ = jumps;
+  tf_was_there_ = false;
   pending_.clear();
   tf_buffer_.clear();
 }
@@ -75,6 +76,10 @@ FromMsg<Eigen::Isometry3d> PlannerInputs::findTransform(const std::string& frame
   } catch (const tf2::TransformException& error) {
     return {std::nullopt, error.what()};
   }
+}
+
+bool PlannerInputs::hasTransform(const std::string& frame) const {
+  return findTransform(frame, ::ros::Time(0)).value.has_value();
 }
 
 void PlannerInputs::onCloud(const sensor_msgs::PointCloud2::ConstPtr& cloud) {
@@ -102,8 +107,9 @@ void PlannerInputs::enterReadyClouds(const ::ros::Time& now) {
   };
   for (const PendingClouds::Item& item : pending_.take(lookup, now)) {
     if (item.problem.empty()) {
+      tf_was_there_ = true;
       enter(item);
-    } else {
+    } else if (tf_was_there_ || !hasTransform(item.cloud->header.frame_id)) {
       report("cloud transform", item.problem);
     }
   }

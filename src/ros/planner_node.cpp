@@ -1,6 +1,6 @@
 #include "spelunk/ros/planner_node.h"
 
-#include <ros/spinner.h>
+#include <ros/init.h>
 
 #include <optional>
 #include <utility>
@@ -19,6 +19,7 @@ PlannerNode::PlannerNode(const ::ros::NodeHandle& node, const ::ros::NodeHandle&
                          PlannerSetup setup)
     : params_(setup.node),
       node_(node),
+      view_node_(node),
       planner_(std::move(setup.planner)),
       core_(setup.mission, setup.robot, setup.map, static_cast<std::uint64_t>(setup.node.seed),
             setup.node.time_limit_s),
@@ -29,12 +30,20 @@ PlannerNode::PlannerNode(const ::ros::NodeHandle& node, const ::ros::NodeHandle&
                 planner_),
       tick_timer_(node_.createTimer(::ros::Duration(1.0 / params_.tick_rate_hz),
                                     [this](const ::ros::TimerEvent&) { tick(); })),
-      status_timer_(node_.createWallTimer(::ros::WallDuration(kStatusPeriod_s),
-                                          [this](const ::ros::WallTimerEvent&) { publishStatus(); })),
-      view_timer_(node_.createWallTimer(::ros::WallDuration(params_.view_period_s),
-                                        [this](const ::ros::WallTimerEvent&) { publishViews(); })) {
+      view_spinner_(1, &view_queue_) {
+  view_node_.setCallbackQueue(&view_queue_);
+  status_timer_ = view_node_.createWallTimer(::ros::WallDuration(kStatusPeriod_s),
+                                             [this](const ::ros::WallTimerEvent&) {
+                                               publishStatus();
+                                             });
+  view_timer_ = view_node_.createWallTimer(
+      ::ros::WallDuration(params_.view_period_s),
+      [this](const ::ros::WallTimerEvent&) { publishViews(); });
   core_.with([&](MissionCore& core) { core.wants_start = params_.auto_start; });
+  view_spinner_.start();
 }
+
+PlannerNode::~PlannerNode() { view_spinner_.stop(); }
 
 void PlannerNode::run() { ::ros::spin(); }
 
@@ -74,9 +83,12 @@ void PlannerNode::startIfWanted(MissionCore& core, double now_s) {
   if (answer.accepted) {
     core.wants_start = false;
     core.endurance.start(now_s);
-  } else if (start_refusals_.allows(answer.reason, now_s)) {
-    log(LogLevel::kWarn, "not started yet: " + answer.reason);
+    return;
   }
+  if (!waits_since_s_) waits_since_s_ = now_s;
+  if (now_s - *waits_since_s_ > params_.silence_s &&
+      start_refusals_.allows(answer.reason, now_s))
+    log(LogLevel::kWarn, "not started yet: " + answer.reason);
 }
 
 void PlannerNode::publish(MissionCore& core, const mission::Command& command) {

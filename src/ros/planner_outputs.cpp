@@ -12,8 +12,8 @@
 namespace spelunk::bridge {
 namespace {
 
-constexpr double kStatusTextHeight_m = 1.0;
-constexpr double kStatusTextAbove_m = 5.0;
+constexpr double kStatusTextHeight_m = 0.9;
+constexpr double kStatusTextAbove_m = 9.0;
 
 visualization::Scene sceneOf(const MissionView& view) {
   visualization::Scene scene;

@@ -15,8 +15,8 @@ struct LayerLook {
 };
 
 LayerLook lookOf(const std::string& layer) {
-  if (layer == "global") return {{0.95F, 0.75F, 0.2F, 0.8F}, 0.08, 0.3};
-  return {{0.35F, 0.6F, 0.9F, 0.35F}, 0.02, 0.18};
+  if (layer == "global") return {{0.95F, 0.75F, 0.2F, 0.35F}, 0.03, 0.3};
+  return {{0.35F, 0.6F, 0.9F, 0.25F}, 0.02, 0.18};
 }
 
 void drawEdges(const GraphLayer& layer, const LayerLook& look, Scene& scene) {

@@ -30,22 +30,22 @@ Colour colourOf(planners::PathKind kind) {
 
 void drawActivePath(const Path& path, planners::PathKind kind, Scene& scene) {
   if (path.empty()) return;
-  drawLine("path", path, colourOf(kind), 0.16, scene);
+  drawLine("path", path, colourOf(kind), 0.3, scene);
   Element end;
   end.layer = "path";
   end.shape = Shape::kSpheres;
-  end.size_m = 0.45;
+  end.size_m = 0.7;
   end.colours = {colourOf(kind)};
   end.points = {path.back().position};
   scene.add(std::move(end));
 }
 
 void drawWayHome(const Path& path, Scene& scene) {
-  drawLine("way_home", path, {0.3F, 0.7F, 1.0F, 0.7F}, 0.08, scene);
+  drawLine("way_home", path, {0.3F, 0.7F, 1.0F, 0.9F}, 0.16, scene);
 }
 
 void drawTrail(const Path& path, Scene& scene) {
-  drawLine("trail", path, {0.9F, 0.9F, 0.9F, 0.8F}, 0.06, scene);
+  drawLine("trail", path, {0.9F, 0.9F, 0.9F, 0.9F}, 0.1, scene);
 }
 
 void drawRobot(const Pose& pose, const Eigen::Vector3d& box_m, Scene& scene) {

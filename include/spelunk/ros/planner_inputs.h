@@ -39,6 +39,8 @@ class PlannerInputs {
   [[nodiscard]] std::string stampProblem(const ::ros::Time& stamp, const ::ros::Time& now) const;
   [[nodiscard]] FromMsg<Eigen::Isometry3d> findTransform(const std::string& frame,
                                                          const ::ros::Time& stamp) const;
+  /// Whether tf knows the frame at any time.
+  [[nodiscard]] bool hasTransform(const std::string& frame) const;
   void report(const std::string& key, const std::string& text);
 
   PlannerNodeParams params_;
@@ -47,6 +49,7 @@ class PlannerInputs {
   double endurance_s_;
   PendingClouds pending_;
   std::uint64_t jumps_seen_ = 0;
+  bool tf_was_there_ = false;  ///< Clouds older than the first transform are dropped without a word.
   InputWatch::Wanted cloud_input_{};
   InputWatch::Wanted odometry_input_{};
 

@@ -1,10 +1,13 @@
 #pragma once
 
+#include <ros/callback_queue.h>
 #include <ros/node_handle.h>
+#include <ros/spinner.h>
 #include <ros/timer.h>
 #include <ros/wall_timer.h>
 
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "spelunk/ros/mission_core.h"
@@ -20,12 +23,14 @@ namespace spelunk::bridge {
 /// Explores with whatever robot or simulator sends clouds, odometry and tf. Converts, calls the
 /// mission and publishes; it decides nothing.
 ///
-/// Threads: sensors (PlannerInputs), services (PlannerServices), one planner worker (PlanWorker), and
-/// the caller's, which runs the mission's tick and draws.
+/// Threads: sensors (PlannerInputs), services (PlannerServices), one planner worker (PlanWorker), one
+/// that publishes views, and the caller's, which runs the mission's tick.
 class PlannerNode {
  public:
   /// Throws OutsideError with everything that is wrong with the parameters.
   PlannerNode(const ::ros::NodeHandle& node, const ::ros::NodeHandle& private_node);
+
+  ~PlannerNode();
 
   /// Works until ROS shuts down.
   void run();
@@ -45,18 +50,22 @@ class PlannerNode {
 
   PlannerNodeParams params_;
   ::ros::NodeHandle node_;
+  ::ros::CallbackQueue view_queue_;
+  ::ros::NodeHandle view_node_;
   GuardedPlanner planner_;
   GuardedCore core_;
   Guarded<std::shared_ptr<const planners::PlannerGraph>> shown_graph_;
-  PlannerOutputs outputs_;  ///< Commands: with the core locked; views: in the caller's thread.
+  PlannerOutputs outputs_;  ///< Commands and status: with the core locked; views: in one thread.
   std::string last_said_;   ///< State and reason of the newest status; with the core locked.
   Throttle start_refusals_;
+  std::optional<double> waits_since_s_;  ///< To start; mission time; with the core locked.
   PlanWorker worker_;
   PlannerInputs inputs_;
   PlannerServices services_;
   ::ros::Timer tick_timer_;
   ::ros::WallTimer status_timer_;
   ::ros::WallTimer view_timer_;
+  ::ros::AsyncSpinner view_spinner_;
 };
 
 }  // namespace spelunk::bridge
