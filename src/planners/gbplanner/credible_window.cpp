@@ -142,80 +142,30 @@ void addShifted(const Word* in, Word* out, const BitPlanes& shape, Side side) {
   }
 }
 
-/// Voxels with an occupied one within `reach` voxels in x and y and one in z: the robot would not
-/// fit there whatever the unknown voxels turn out to be.
-BitPlanes blockedBy(const BitPlanes& occupied, int reach) {
-  BitPlanes wide = occupied;
-  std::vector<Word> before(occupied.layerSize());
+/// Step 2 of credibleWindow(): occupied voxels grow by `reach` voxels in x and y and one in z.
+void growOccupied(Planes& planes, int reach) {
+  if (reach <= 0) return;
+  BitPlanes wide = planes.occupied;
+  const std::size_t size = wide.layerSize();
+  std::vector<Word> before(size);
   for (int z = 0; z < wide.layers(); ++z) {
     for (const auto& [one, other] :
          {std::pair{Side::kLeft, Side::kRight}, std::pair{Side::kFront, Side::kBack}}) {
       for (int k = 0; k < reach; ++k) {
-        std::copy_n(wide.layer(z), before.size(), before.begin());
+        std::copy_n(wide.layer(z), size, before.begin());
         addShifted(before.data(), wide.layer(z), wide, one);
         addShifted(before.data(), wide.layer(z), wide, other);
       }
     }
   }
-  BitPlanes blocked = wide;
   for (int z = 0; z < wide.layers(); ++z) {
-    for (const int other : {z - 1, z + 1}) {
-      if (other < 0 || other >= wide.layers()) continue;
-      for (std::size_t i = 0; i < before.size(); ++i) blocked.layer(z)[i] |= wide.layer(other)[i];
-    }
-  }
-  return blocked;
-}
-
-/// Unknown voxels to one side of free ones, neither blocked, over at least `height` voxels on end
-/// in z.
-void addOpenings(const Planes& planes, const BitPlanes& blocked, int height, Side side,
-                 BitPlanes& openings) {
-  const std::size_t size = openings.layerSize();
-  const int layers = openings.layers();
-  BitPlanes beside(openings.wordsInRow(), openings.rows(), layers);
-  std::vector<Word> passable(size);
-  for (int z = 0; z < layers; ++z) {
-    Word* out = beside.layer(z);
-    const Word* free = planes.free.layer(z);
-    const Word* closed = blocked.layer(z);
-    for (std::size_t i = 0; i < size; ++i) passable[i] = free[i] & ~closed[i];
-    addShifted(passable.data(), out, beside, side);
-    for (std::size_t i = 0; i < size; ++i) out[i] &= ~(free[i] | closed[i]);
-  }
-  std::vector<Word> all(size);
-  for (int z = 0; z + height <= layers; ++z) {
-    std::fill(all.begin(), all.end(), ~Word{0});
-    for (int k = 0; k < height; ++k) {
-      const Word* in = beside.layer(z + k);
-      for (std::size_t i = 0; i < size; ++i) all[i] &= in[i];
-    }
-    for (int k = 0; k < height; ++k) {
-      Word* out = openings.layer(z + k);
-      for (std::size_t i = 0; i < size; ++i) out[i] |= all[i];
-    }
-  }
-}
-
-/// Step 2 of credibleWindow().
-void sealAllBut(const BitPlanes& openings, Planes& planes) {
-  const std::size_t size = openings.layerSize();
-  const int layers = openings.layers();
-  std::vector<Word> near(size);
-  for (int z = 0; z < layers; ++z) {
-    std::fill(near.begin(), near.end(), 0);
-    for (const Side side : {Side::kLeft, Side::kRight, Side::kFront, Side::kBack})
-      addShifted(planes.free.layer(z), near.data(), openings, side);
-    const Word* below = z > 0 ? planes.free.layer(z - 1) : nullptr;
-    const Word* above = z + 1 < layers ? planes.free.layer(z + 1) : nullptr;
     Word* occupied = planes.occupied.layer(z);
-    const Word* free = planes.free.layer(z);
-    const Word* open = openings.layer(z);
-    for (std::size_t i = 0; i < size; ++i) {
-      const Word beside =
-          near[i] | (below != nullptr ? below[i] : 0) | (above != nullptr ? above[i] : 0);
-      occupied[i] |= beside & ~free[i] & ~open[i];
+    for (int near = std::max(0, z - 1); near <= std::min(z + 1, wide.layers() - 1); ++near) {
+      const Word* in = wide.layer(near);
+      for (std::size_t i = 0; i < size; ++i) occupied[i] |= in[i];
     }
+    Word* free = planes.free.layer(z);
+    for (std::size_t i = 0; i < size; ++i) free[i] &= ~occupied[i];
   }
 }
 
@@ -247,13 +197,7 @@ map::LocalWindow credibleWindow(const map::LocalWindow& window, const Credibilit
   };
   Planes planes = planesOf(window);
   closeColumns(planes, voxels(credibility.closing_height_m));
-  BitPlanes openings(planes.free.wordsInRow(), planes.free.rows(), planes.free.layers());
-  const int height = std::max(1, voxels(credibility.opening_height_m));
-  const BitPlanes blocked =
-      blockedBy(planes.occupied, std::max(0, voxels(credibility.opening_width_m / 2.0) - 1));
-  for (const Side side : {Side::kLeft, Side::kRight, Side::kFront, Side::kBack})
-    addOpenings(planes, blocked, height, side, openings);
-  sealAllBut(openings, planes);
+  growOccupied(planes, voxels(credibility.growth_m));
   return window.withCells(cellsOf(planes, window));
 }
 

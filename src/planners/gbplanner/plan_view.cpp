@@ -31,14 +31,14 @@ AxisAlignedBox grown(const AxisAlignedBox& box, const Eigen::Vector3d& margin) {
   return {box.min - margin, box.max + margin};
 }
 
-/// How far rays reach beyond a position; less upwards, where only credible openings let them.
+/// How far rays reach beyond a position; the fields of view are flat.
 Eigen::Vector3d gainMargin(const map::GainEvaluator& evaluator) {
   constexpr double kSteepest = 0.3;  // tangent of the steepest rays that matter beyond the box
   return {evaluator.reach(), evaluator.reach(), kSteepest * evaluator.reach()};
 }
 
 Credibility credibilityOf(const GbPlannerParams& params) {
-  return {params.closing_height_m, params.opening_height_m, params.opening_width_m};
+  return {params.closing_height_m, params.growth_m};
 }
 
 }  // namespace

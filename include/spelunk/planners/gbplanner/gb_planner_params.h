@@ -26,8 +26,8 @@ struct GbPlannerParams {
   double path_spacing_m = 1.0;
   bool count_once = false;
   double closing_height_m = 1.4;
-  double opening_height_m = 0.8;
-  double opening_width_m = 1.2;
+  double growth_m = 0.2;
+  double gain_floor_m3 = 15.0;
   Eigen::Vector3d safety_margin_m{0.1, 0.1, 0.3};
   double tightness_cost = 2.0;
   double frontier_gain_m3 = 12.0;
@@ -35,7 +35,7 @@ struct GbPlannerParams {
   double cluster_distance_m = 2.0;
   double global_distance_weight = 0.02;
   double global_radius_m = 4.0;
-  double eta_factor = 1.3;
+  double eta_factor = 1.1;
   double tried_radius_m = 3.0;
   double shortcut_length_max_m = 12.0;
   double prune_length_m = 0.5;
@@ -59,8 +59,8 @@ struct GbPlannerParams {
     field("path_spacing_m", path_spacing_m, Bounds{0.1, 10.0}, "spacing of points compared by time warping");
     field("count_once", count_once, Bounds{}, "count the gain of a path at its best vertex instead of the sum over all");
     field("closing_height_m", closing_height_m, Bounds{0.0, 10.0}, "gaps between sensor rows this high hold nothing to explore");
-    field("opening_height_m", opening_height_m, Bounds{0.0, 10.0}, "lower openings hold nothing to explore");
-    field("opening_width_m", opening_width_m, Bounds{0.0, 20.0}, "narrower openings hold nothing to explore");
+    field("growth_m", growth_m, Bounds{0.0, 5.0}, "obstacles are this much thicker for the rays of a gain");
+    field("gain_floor_m3", gain_floor_m3, Bounds{0.0, 1e6}, "a smaller volumetric gain counts as none: it is noise");
     field("safety_margin_m", safety_margin_m, Bounds{0.0, 2.0}, "room wanted on each side", Audience::kUser);
     field("tightness_cost", tightness_cost, Bounds{1.0, 100.0}, "ways without that room count as this many times longer");
     field("frontier_gain_m3", frontier_gain_m3, Bounds{0.0, 1e6}, "volumetric gain that makes a leaf a frontier", Audience::kUser);
