@@ -7,7 +7,9 @@
 #include <map>
 
 #include "spelunk/common/contract.h"
+#include "spelunk/common/sensor_model.h"
 #include "spelunk/sim/mesh_scene.h"
+#include "spelunk/sim/rock_field.h"
 #include "support/mesh_checks.h"
 #include "support/temporary_folder.h"
 
@@ -167,6 +169,32 @@ TEST_P(ShippedMine, IsNowhereNarrowerThanPlanned) {
 
 INSTANTIATE_TEST_SUITE_P(All, ShippedMine, testing::Values("long_wall", "room_and_pillar", "cave"),
                          [](const auto& instance) { return std::string(instance.param); });
+
+/// Whether the way to a hit leads through solid rock.
+bool passesRock(const RockField& rock, const Eigen::Vector3f& from,
+                const Eigen::Vector3f& direction, float range) {
+  for (float along = 0.5F; along < range - 0.7F; along += 0.7F)
+    if (rock.at((from + along * direction).cast<double>()) > 0.8) return true;
+  return false;
+}
+
+TEST(LongWall, LetsNoRaySlipBetweenTwoTriangles) {
+  const World& at = world("long_wall");
+  const RockField rock(at.plan);
+  const std::vector<Eigen::Vector3f> directions = rayDirections(SensorModel{});
+  std::vector<float> ranges;
+  int slipped = 0;
+  // From each of these one ray in 28,800 meets an edge so exactly that careless tests miss both
+  // of its triangles.
+  for (const auto& [passage, station] : {std::pair{11U, 16U}, {20U, 0U}}) {
+    const Eigen::Vector3d floor = at.plan.passages[passage].stations[station].floor;
+    const Eigen::Vector3f from = (floor + Eigen::Vector3d(0.013, 0.017, 1.03)).cast<float>();
+    at.scene.castFan(from, directions, 50.0F, ranges);
+    for (std::size_t i = 0; i < directions.size(); ++i)
+      slipped += passesRock(rock, from, directions[i], ranges[i]) ? 1 : 0;
+  }
+  EXPECT_EQ(slipped, 0);
+}
 
 TEST(LongWall, HasTheLengthAndWidthsOfTheDefaultMine) {
   const WorldPlan& plan = world("long_wall").plan;
