@@ -12,7 +12,8 @@ namespace spelunk::evaluation {
 /// Which rays of a scan are walked.
 enum class RayChoice {
   kAll,         ///< Every ray of every scan.
-  kOneAnEnding  ///< Of the rays of a scan that end in one voxel the first, of every second scan.
+  kOneAnEnding  ///< Of the rays of a scan that end in one voxel the first, of every second scan:
+                ///< a fifth of the work; counts never more and up to 1.5 % less.
 };
 
 /// Volume the sensors have seen, free and hit, counted along the simulated rays themselves (true
