@@ -201,7 +201,7 @@ def draw_endurance(axes, times, states):
     axes.set_ylim(0, 1.08 * max(times["remaining_s"].max(), 1.0))
     axes.set_ylabel("time [s]")
     axes.set_xlabel("mission time [s]")
-    axes.legend(loc="upper right", fontsize=9, frameon=False)
+    axes.legend(loc="best", fontsize=9, frameon=False)
 
 
 def headline(summary):
