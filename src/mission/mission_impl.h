@@ -13,6 +13,7 @@
 #include "spelunk/mission/mission.h"
 #include "spelunk/mission/mission_store.h"
 #include "spelunk/mission/path_execution.h"
+#include "spelunk/navigation/swept_path_check.h"
 #include "spelunk/navigation/trajectory_timing.h"
 
 namespace spelunk::mission {
@@ -45,6 +46,8 @@ struct WayHome {
 
 /// State and steps of the mission. Steps that belong together share a .cpp:
 /// mission_inputs, mission_goto, mission_cycle, mission_plans, mission_home.
+constexpr double kBodyShare = 0.5;  // of the safety box: returns from there are the robot itself
+
 struct Mission::Impl {
   Impl(const MissionParams& mission_params, const RobotModel& robot_model,
        const map::MapParams& map_params, std::uint64_t seed);
@@ -92,6 +95,9 @@ struct Mission::Impl {
   [[nodiscard]] bool wantsPlanInFlight() const;
   void makeJob();
   std::optional<Command> accept(const PlanOutcome& outcome, double now_s);
+  /// The planner's path with the full safety box; where the robot's margin already touches
+  /// something, its first short step out of there with the body alone.
+  [[nodiscard]] navigation::PathCheck checkProposal(const Path& path);
   void acceptExploration(const RunningJob& job, const PlanOutcome& outcome);
   void acceptWayHome(const RunningJob& job, const planners::PlanResult& home);
   void onNoPlan(const RunningJob& job, const planners::PlanResult& plan);

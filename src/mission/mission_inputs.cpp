@@ -7,7 +7,6 @@
 namespace spelunk::mission {
 namespace {
 
-constexpr double kBodyShare = 0.5;  // of the safety box: returns from there are the robot itself
 constexpr double kTrailSpacing_m = 1.0;
 constexpr double kScanFuture_s = 1.0;
 

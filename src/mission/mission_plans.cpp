@@ -123,6 +123,18 @@ Path Mission::Impl::joined(const RunningJob& job, const Path& path) const {
   return whole;
 }
 
+navigation::PathCheck Mission::Impl::checkProposal(const Path& path) {
+  const auto view = map.freeze();
+  const auto check = navigation::checkPath(*view, path, robot.box_m, no_go, limits);
+  constexpr double kStepOut_m = 0.7;
+  if (check.isFree() || path.size() < 2 || distance(path[0], path[1]) > kStepOut_m) return check;
+  const Path step_out(path.begin(), path.begin() + 2);
+  if (!navigation::checkPath(*view, step_out, kBodyShare * robot.box_m, no_go, {}).isFree())
+    return check;
+  return navigation::checkPath(*view, Path(path.begin() + 1, path.end()), robot.box_m, no_go,
+                               limits);
+}
+
 void Mission::Impl::acceptExploration(const RunningJob& job, const PlanOutcome& outcome) {
   if (outcome.plan.status != planners::PlanStatus::kOk) return onNoPlan(job, outcome.plan);
   const bool splices = active && now <= job.takes_over_s + 1e-6;
@@ -130,8 +142,7 @@ void Mission::Impl::acceptExploration(const RunningJob& job, const PlanOutcome& 
   if (!splices && !stands)
     return refuse("the plan came too late: its start lies behind the robot",
                   planners::PathOutcome::kRejectedUnsafe);
-  const auto check =
-      navigation::checkPath(*map.freeze(), outcome.plan.path, robot.box_m, no_go, limits);
+  const auto check = checkProposal(outcome.plan.path);
   if (!check.isFree())
     return refuse("refused the planner's path: " + std::string(navigation::toText(check.fault)) +
                       (check.zone.empty() ? "" : " '" + check.zone + "'"),
@@ -190,7 +201,7 @@ void Mission::Impl::onNoPlan(const RunningJob& job, const planners::PlanResult& 
     return;
   }
   if (plan.status == planners::PlanStatus::kNothingToGain)
-    return goHome("explored: " + plan.reason);
+    return goHome(plan.reason);
   if (plan.status == planners::PlanStatus::kBudgetSaysHome)
     return goHome("home by endurance: " + plan.reason);
   onFailedPlan(std::string(planners::toText(plan.status)) + ": " + plan.reason);

@@ -20,7 +20,7 @@ enum class MissionState { kIdle, kExplore, kReposition, kHome, kHold, kDone, kES
 struct MissionParams {
   double reserve_s = 20.0;
   double reserve_percent = 3.0;
-  double pessimism = 1.25;            ///< Travel times are taken this much longer.
+  double pessimism = 1.15;            ///< Travel times are taken this much longer.
   double plan_ahead_s = 1.5;          ///< A new path takes over this long after it was asked for.
   double deviation_max_m = 0.8;
   double home_radius_m = 1.0;

@@ -219,7 +219,12 @@ struct GbPlanner::Search {
 
   void reportNothingLeft(const GlobalPlan& plan) {
     listRemaining();
-    if (local.is_over_budget || plan.out_of_budget > 0) {
+    constexpr int kHemmedIn = 3;  // a graph of fewer vertices has not left the start
+    if (result.stats.vertices < kHemmedIn) {
+      result.status = PlanStatus::kNoPath;
+      result.reason = "hemmed in: none of " + std::to_string(result.stats.samples) +
+                      " samples could be joined to the start through known free space";
+    } else if (local.is_over_budget || plan.out_of_budget > 0) {
       result.status = PlanStatus::kBudgetSaysHome;
       result.reason = "something is left, but the endurance allows none of it and the way home";
     } else if (plan.unreachable > 0) {
