@@ -23,9 +23,8 @@ endfunction()
 
 # spelunk_test(name SOURCES ... LINK ...): one GoogleTest program that ctest runs.
 function(spelunk_test name)
-  cmake_parse_arguments(arg "" "TIMEOUT" "SOURCES;LINK" ${ARGN})
-  catkin_add_gtest(${name} ${arg_SOURCES} WORKING_DIRECTORY ${PROJECT_SOURCE_DIR}
-    TIMEOUT ${arg_TIMEOUT})
+  cmake_parse_arguments(arg "" "" "SOURCES;LINK" ${ARGN})
+  catkin_add_gtest(${name} ${arg_SOURCES} WORKING_DIRECTORY ${PROJECT_SOURCE_DIR})
   target_include_directories(${name} PRIVATE ${PROJECT_SOURCE_DIR}/test)
   target_compile_definitions(${name} PRIVATE SPELUNK_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
   target_link_libraries(${name} ${arg_LINK} gtest_main)

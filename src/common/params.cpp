@@ -51,13 +51,15 @@ void flatten(const YAML::Node& node, const std::string& prefix, const std::strin
   const std::string origin = path + ":" + std::to_string(node.Mark().line + 1);
   if (node.IsMap()) {
     for (const auto& child : node)
-      flatten(child.second, prefix.empty() ? child.first.Scalar() : prefix + "." + child.first.Scalar(),
-              path, tree);
+      flatten(child.second,
+              prefix.empty() ? child.first.Scalar() : prefix + "." + child.first.Scalar(), path,
+              tree);
   } else if (node.IsSequence()) {
     std::string text = "[";
     for (const auto& item : node) {
       if (!item.IsScalar())
-        throw OutsideError(origin + ": '" + prefix + "' holds a nested list; only flat lists are read");
+        throw OutsideError(origin + ": '" + prefix +
+                           "' holds a nested list; only flat lists are read");
       text += (text.size() > 1 ? ", " : "") + item.Scalar();
     }
     tree.set(prefix, text + "]", origin);

@@ -50,12 +50,11 @@ Path resampled(const Path& path, double spacing_m) {
   if (path.size() < 2) return path;
   Path dense{path.front()};
   for (std::size_t i = 1; i < path.size(); ++i) {
-    const int parts = std::max(1, static_cast<int>(std::ceil(distance(path[i - 1], path[i]) /
-                                                             spacing_m - 1e-9)));
+    const int parts =
+        std::max(1, static_cast<int>(std::ceil(distance(path[i - 1], path[i]) / spacing_m - 1e-9)));
     for (int k = 1; k <= parts; ++k)
-      dense.push_back(k == parts ? path[i]
-                                 : interpolate(path[i - 1], path[i],
-                                               static_cast<double>(k) / parts));
+      dense.push_back(
+          k == parts ? path[i] : interpolate(path[i - 1], path[i], static_cast<double>(k) / parts));
   }
   return dense;
 }

@@ -23,9 +23,10 @@ TrajectoryPoint hermite(const TrajectoryPoint& a, const TrajectoryPoint& b, doub
   out.pose.position = p0 + u * m0 + u * u * (3.0 * (p1 - p0) - 2.0 * m0 - m1) +
                       u * u * u * (2.0 * (p0 - p1) + m0 + m1);
   out.velocity = (m0 + 2.0 * u * (3.0 * (p1 - p0) - 2.0 * m0 - m1) +
-                  3.0 * u * u * (2.0 * (p0 - p1) + m0 + m1)) / h;
-  out.acceleration = (2.0 * (3.0 * (p1 - p0) - 2.0 * m0 - m1) +
-                      6.0 * u * (2.0 * (p0 - p1) + m0 + m1)) / (h * h);
+                  3.0 * u * u * (2.0 * (p0 - p1) + m0 + m1)) /
+                 h;
+  out.acceleration =
+      (2.0 * (3.0 * (p1 - p0) - 2.0 * m0 - m1) + 6.0 * u * (2.0 * (p0 - p1) + m0 + m1)) / (h * h);
   const double turn = wrapAngle(b.pose.yaw - a.pose.yaw);
   out.pose.yaw = wrapAngle(a.pose.yaw + u * turn);
   out.yaw_rate = turn / h;

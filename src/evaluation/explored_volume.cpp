@@ -52,11 +52,9 @@ void ExploredVolume::walk(const Eigen::Vector3d& origin, const Eigen::Vector3d& 
   const Eigen::Vector3d from = seen_.scaled(origin);
   const double length = range_m / seen_.resolution();
   const Eigen::Vector3i& size = seen_.size();
-  const std::ptrdiff_t strides[3] = {1, size.x(),
-                                     static_cast<std::ptrdiff_t>(size.x()) * size.y()};
+  const std::ptrdiff_t strides[3] = {1, size.x(), static_cast<std::ptrdiff_t>(size.x()) * size.y()};
   Axis axes[3];
-  for (int i = 0; i < 3; ++i)
-    axes[i] = axisOf(from[i], direction[i], cell[i], size[i], strides[i]);
+  for (int i = 0; i < 3; ++i) axes[i] = axisOf(from[i], direction[i], cell[i], size[i], strides[i]);
   auto offset = static_cast<std::ptrdiff_t>(seen_.offsetOf(cell));
   for (;;) {
     voxels_ += seen_.set(static_cast<std::size_t>(offset)) ? 1 : 0;

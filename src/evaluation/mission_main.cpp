@@ -59,29 +59,30 @@ Loaded load(const Options& options) {
   loaded.config = spelunk::mission::loadRunConfig(
       {loaded.share_dir, options.robot, options.planner, options.assignments});
   loaded.config.tree.read("sim", loaded.sim);
-  loaded.planner =
-      spelunk::planners::makePlanner(options.planner, loaded.config.tree, loaded.config.robot,
-                                     loaded.config.map.resolution_m);
+  loaded.planner = spelunk::planners::makePlanner(
+      options.planner, loaded.config.tree, loaded.config.robot, loaded.config.map.resolution_m);
   loaded.config.tree.requireClean();
   return loaded;
 }
 
-template <class Params>
-void printTable(const std::string& section, const Params& params) {
-  for (const auto& line : spelunk::describe(section, params))
-    std::printf("%-38s %-22s [%s, %s]  %s\n", line.name.c_str(), line.value.c_str(),
-                spelunk::toText(line.bounds.min).c_str(), spelunk::toText(line.bounds.max).c_str(),
-                line.text.c_str());
+/// One line a parameter; a star marks those everyone should look at.
+void printTable(const std::vector<spelunk::ParamDescription>& lines) {
+  for (const auto& line : lines)
+    std::printf("%c %-38s %-22s [%s, %s]  %s\n",
+                line.audience == spelunk::Audience::kUser ? '*' : ' ', line.name.c_str(),
+                line.value.c_str(), spelunk::toText(line.bounds.min).c_str(),
+                spelunk::toText(line.bounds.max).c_str(), line.text.c_str());
 }
 
 void listParams(const Options& options) {
-  const Loaded loaded = load(options);
-  printTable("robot", loaded.config.robot);
+  Loaded loaded = load(options);
+  printTable(spelunk::describe("robot", loaded.config.robot));
   for (const auto& sensor : loaded.config.robot.sensor_models)
-    printTable("sensor." + sensor.name, sensor);
-  printTable("map", loaded.config.map);
-  printTable("mission", loaded.config.mission);
-  printTable("sim", loaded.sim);
+    printTable(spelunk::describe("sensor." + sensor.name, sensor));
+  printTable(spelunk::describe("map", loaded.config.map));
+  printTable(spelunk::describe("mission", loaded.config.mission));
+  printTable(spelunk::planners::describePlanner(options.planner, loaded.config.tree));
+  printTable(spelunk::describe("sim", loaded.sim));
 }
 
 spelunk::Pose poseFrom(const std::string& text) {
@@ -122,21 +123,24 @@ void plot(const std::string& share_dir, const std::string& out) {
   const std::string command =
       "'" + share_dir + "/scripts/plot_mission.py' '" + out + "' >/dev/null 2>&1";
   if (std::system(command.c_str()) != 0)
-    spelunk::log(spelunk::LogLevel::kWarn,
-                 "no exploration.png: scripts/plot_mission.py failed (python3-matplotlib missing?)");
+    spelunk::log(
+        spelunk::LogLevel::kWarn,
+        "no exploration.png: scripts/plot_mission.py failed (python3-matplotlib missing?)");
 }
 
 void sayResult(const spelunk::evaluation::RunRecord& record, double reachable_m3,
                const std::string& out) {
-  std::printf("\n%s\nexplored %.0f m3 of %.0f m3 reachable on %.0f m in %.0f s "
-              "(%.1f s of wall time); collisions %d; %s\nwritten to %s\n",
-              record.outcome.c_str(), record.explored_volume_m3, reachable_m3,
-              record.path_length_m, record.mission_time_s, record.wall_time_s, record.collisions,
-              record.returned_home
-                  ? ("home with " + std::to_string(static_cast<int>(record.remaining_at_home_s)) +
-                     " s left").c_str()
-                  : "NOT home",
-              out.c_str());
+  std::printf(
+      "\n%s\nexplored %.0f m3 of %.0f m3 reachable on %.0f m in %.0f s "
+      "(%.1f s of wall time); collisions %d; %s\nwritten to %s\n",
+      record.outcome.c_str(), record.explored_volume_m3, reachable_m3, record.path_length_m,
+      record.mission_time_s, record.wall_time_s, record.collisions,
+      record.returned_home
+          ? ("home with " + std::to_string(static_cast<int>(record.remaining_at_home_s)) +
+             " s left")
+                .c_str()
+          : "NOT home",
+      out.c_str());
 }
 
 int fly(const Options& options, bool quiet) {
@@ -156,11 +160,10 @@ int fly(const Options& options, bool quiet) {
   const auto record =
       quiet ? run.fly() : run.fly([](const spelunk::evaluation::Progress& p) { show(p); });
   const auto reachable = spelunk::evaluation::reachableVolume(mesh, setup.start.position);
-  spelunk::evaluation::writeReport(
-      options.out,
-      {options.planner, options.world, options.robot, options.seed, options.time_limit_s,
-       reachable.total_m3},
-      record);
+  spelunk::evaluation::writeReport(options.out,
+                                   {options.planner, options.world, options.robot, options.seed,
+                                    options.time_limit_s, reachable.total_m3},
+                                   record);
   run.mission().map().save(options.out + "/map.bt");
   spelunk::evaluation::writePlanView(*run.mission().map().freeze(), options.out + "/.plan_view");
   plot(loaded.share_dir, options.out);

@@ -10,7 +10,7 @@ namespace spelunk::evaluation {
 namespace {
 
 constexpr int kTicksPerSecond = 10;
-constexpr int kWarmUpTicks = 5;          // scans before the mission is started
+constexpr int kWarmUpTicks = 5;  // scans before the mission is started
 constexpr double kClearanceLimit_m = 5.0;
 constexpr double kRateWindow_s = 10.0;
 constexpr double kOutOfEndurance_s = 0.05;
@@ -148,8 +148,7 @@ Progress MissionRun::Impl::progress() const {
 }
 
 bool MissionRun::Impl::isOver() const {
-  return mission.status().state == mission::MissionState::kDone ||
-         remaining() <= kOutOfEndurance_s;
+  return mission.status().state == mission::MissionState::kDone || remaining() <= kOutOfEndurance_s;
 }
 
 void MissionRun::Impl::finish() {
@@ -163,9 +162,10 @@ void MissionRun::Impl::finish() {
   record.remaining_at_home_s = record.returned_home ? remaining() : 0.0;
   record.ended_as_it_may = record.returned_home && remaining() > 0.0;
   record.remaining_targets = mission.remaining();
-  record.outcome = record.returned_home ? status.end_reason
-                                        : "stranded " + std::to_string(distance(pose, setup.start)) +
-                                              " m from home: " + status.reason;
+  record.outcome = record.returned_home
+                       ? status.end_reason
+                       : "stranded " + std::to_string(distance(pose, setup.start)) +
+                             " m from home: " + status.reason;
 }
 
 RunRecord MissionRun::Impl::fly(const std::function<void(const Progress&)>& show) {

@@ -14,9 +14,9 @@ namespace {
 
 using Triangle = std::array<Eigen::Vector3d, 3>;
 
-/// Whether a triangle meets cubes of one size: separating axes (Akenine-Moeller, Fast 3D Triangle-Box
-/// Overlap Testing, Journal of Graphics Tools 6(1), 2001), with all that depends on the triangle
-/// alone worked out once. The three axes of the cube are the caller's bounding box.
+/// Whether a triangle meets cubes of one size: separating axes (Akenine-Moeller, Fast 3D
+/// Triangle-Box Overlap Testing, Journal of Graphics Tools 6(1), 2001), with all that depends on
+/// the triangle alone worked out once. The three axes of the cube are the caller's bounding box.
 class TriangleTest {
  public:
   TriangleTest(const Triangle& triangle, double half_edge) {

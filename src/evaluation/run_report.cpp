@@ -28,7 +28,8 @@ double rounded(double value) { return std::round(value * 1000.0) / 1000.0; }
 
 std::string quoted(const std::string& text) {
   std::string out = "\"";
-  for (const char c : text) out += c == '"' ? std::string("\"\"") : std::string(1, c == '\n' ? ' ' : c);
+  for (const char c : text)
+    out += c == '"' ? std::string("\"\"") : std::string(1, c == '\n' ? ' ' : c);
   return out + "\"";
 }
 
@@ -52,16 +53,16 @@ std::string timelineText(const std::vector<TimelineRow>& rows) {
 std::string planLine(const PlanRow& row) {
   const planners::PlanStats& s = row.result.stats;
   std::string line = fixed(row.t_s) + "," + (row.explore ? "explore" : "home") + "," +
-                     planners::toText(row.result.status) + "," +
-                     planners::toText(row.result.kind) + "," + fixed(row.length_m) + "," +
-                     fixed(s.best_gain) + "," + fixed(s.gain_threshold);
-  for (const int count : {s.samples, s.rejected_occupied, s.rejected_unknown,
-                          s.rejected_out_of_bounds, s.rejected_no_go, s.rejected_too_steep,
-                          s.rejected_unconnected, s.vertices, s.edges, s.global_vertices,
-                          s.global_edges, s.frontiers})
+                     planners::toText(row.result.status) + "," + planners::toText(row.result.kind) +
+                     "," + fixed(row.length_m) + "," + fixed(s.best_gain) + "," +
+                     fixed(s.gain_threshold);
+  for (const int count :
+       {s.samples, s.rejected_occupied, s.rejected_unknown, s.rejected_out_of_bounds,
+        s.rejected_no_go, s.rejected_too_steep, s.rejected_unconnected, s.vertices, s.edges,
+        s.global_vertices, s.global_edges, s.frontiers})
     line += "," + std::to_string(count);
-  for (const double ms : {s.window_ms, s.graph_ms, s.gain_ms, s.global_ms, s.improve_ms,
-                          s.total_ms, row.wall_ms})
+  for (const double ms :
+       {s.window_ms, s.graph_ms, s.gain_ms, s.global_ms, s.improve_ms, s.total_ms, row.wall_ms})
     line += "," + fixed(ms);
   return line + "," + quoted(row.verdict) + "," + quoted(row.result.reason) + "\n";
 }

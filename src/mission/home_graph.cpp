@@ -11,9 +11,9 @@ namespace {
 constexpr double kTrailSpacing_m = 0.5;
 constexpr double kRouteSpacing_m = 1.0;
 constexpr double kShortcutReach_m = 2.5;
-constexpr double kShortcutWorth = 2.0;   // a shortcut saves at least half of the way between
+constexpr double kShortcutWorth = 2.0;  // a shortcut saves at least half of the way between
 constexpr std::size_t kShortcutTries = 4;
-constexpr double kTightCost = 20.0;      // flown once, but the margin is gone: the last resort
+constexpr double kTightCost = 20.0;  // flown once, but the margin is gone: the last resort
 constexpr double kJoinReach_m = 2.0;
 constexpr double kJoinCost = 1.5;
 constexpr std::size_t kRechecksPerCall = 20;
@@ -124,8 +124,8 @@ void HomeGraph::tryShortcuts(graph::VertexId id, const map::FrozenMap& map) {
   for (const graph::VertexId other : graph_.findWithin(graph_.position(id), kShortcutReach_m)) {
     if (other >= id || graph_.hasEdge(id, other)) continue;
     const double gap = (graph_.position(id) - graph_.position(other)).norm();
-    const double between = static_cast<double>(graph::indexOf(id) - graph::indexOf(other)) *
-                           kTrailSpacing_m;
+    const double between =
+        static_cast<double>(graph::indexOf(id) - graph::indexOf(other)) * kTrailSpacing_m;
     if (between < kShortcutWorth * std::max(gap, kTrailSpacing_m)) continue;
     if (++tries > kShortcutTries) return;
     if (isFree(id, other, box_, map)) addEdge(id, other, Origin::kChecked);
@@ -145,8 +145,8 @@ std::optional<Path> HomeGraph::wayFrom(const Pose& from) {
   if (near.empty()) near.push_back(*graph_.findNearest(from.position));
   for (const graph::VertexId id : near) {
     if (!paths.reaches(id)) continue;
-    const double cost = kJoinCost * (graph_.position(id) - from.position).norm() +
-                        paths.distanceTo(id);
+    const double cost =
+        kJoinCost * (graph_.position(id) - from.position).norm() + paths.distanceTo(id);
     if (cost >= least) continue;
     least = cost;
     best = id;
@@ -154,7 +154,8 @@ std::optional<Path> HomeGraph::wayFrom(const Pose& from) {
   if (!best) return std::nullopt;
   std::vector<graph::VertexId> ids = paths.pathTo(*best);
   Path way{from};
-  for (auto id = ids.rbegin(); id != ids.rend(); ++id) way.push_back({graph_.position(*id), from.yaw});
+  for (auto id = ids.rbegin(); id != ids.rend(); ++id)
+    way.push_back({graph_.position(*id), from.yaw});
   way.back().yaw = home().yaw;
   return way;
 }

@@ -6,8 +6,8 @@
 namespace spelunk::mission {
 namespace {
 
-constexpr double kJumpSlack_m = 1.0;   // noise and corrections of an estimator
-constexpr double kSpeedSlack = 3.0;    // times the robot's fastest motion
+constexpr double kJumpSlack_m = 1.0;  // noise and corrections of an estimator
+constexpr double kSpeedSlack = 3.0;   // times the robot's fastest motion
 constexpr int kAgreeingReports = 5;
 
 bool isFiniteState(const RobotState& state) {

@@ -7,13 +7,20 @@ namespace spelunk::mission {
 
 const char* toText(MissionState state) {
   switch (state) {
-    case MissionState::kIdle: return "Idle";
-    case MissionState::kExplore: return "Explore";
-    case MissionState::kReposition: return "Reposition";
-    case MissionState::kHome: return "Home";
-    case MissionState::kHold: return "Hold";
-    case MissionState::kDone: return "Done";
-    case MissionState::kEStop: return "EStop";
+    case MissionState::kIdle:
+      return "Idle";
+    case MissionState::kExplore:
+      return "Explore";
+    case MissionState::kReposition:
+      return "Reposition";
+    case MissionState::kHome:
+      return "Home";
+    case MissionState::kHold:
+      return "Hold";
+    case MissionState::kDone:
+      return "Done";
+    case MissionState::kEStop:
+      return "EStop";
   }
   return "unknown";
 }

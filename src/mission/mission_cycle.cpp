@@ -118,8 +118,7 @@ void Mission::Impl::checkInputs() {
 
 void Mission::Impl::checkDeviation() {
   if (!active) return;
-  const double gap =
-      (input.latest()->pose.position - active->reference(now).pose.position).norm();
+  const double gap = (input.latest()->pose.position - active->reference(now).pose.position).norm();
   if (gap <= params.deviation_max_m) return;
   ++status.replans_deviation;
   hold(withNumber("the robot is %.2f m off its path: holding and planning anew", gap),

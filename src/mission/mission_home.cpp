@@ -8,7 +8,7 @@
 namespace spelunk::mission {
 namespace {
 
-constexpr double kWorthMerging = 0.8;      // of the way along the trail
+constexpr double kWorthMerging = 0.8;  // of the way along the trail
 constexpr double kMergeFrom_s = 20.0;
 constexpr double kMergePeriod_s = 10.0;
 constexpr double kWorthReplacing = 0.95;
@@ -70,8 +70,7 @@ void Mission::Impl::refreshWayHome() {
   } else {
     const auto by_trail = wayByTrail();
     const auto by_route = wayByRoute();
-    const bool route_wins =
-        by_route && (!by_trail || by_route->travel_s < by_trail->travel_s);
+    const bool route_wins = by_route && (!by_trail || by_route->travel_s < by_trail->travel_s);
     if (!by_route && !by_trail) {
       if (goal == Goal::kExplore) goHome("no known way home is clear any more");
       return;
@@ -117,7 +116,8 @@ void Mission::Impl::stepHome() {
     command = Command{};
     return enter(MissionState::kDone, status.end_reason);
   }
-  const bool may_try = isAtRest() && now >= hold_since_s + (state == MissionState::kHold ? kHomeRetry_s : 0.0);
+  const bool may_try =
+      isAtRest() && now >= hold_since_s + (state == MissionState::kHold ? kHomeRetry_s : 0.0);
   if (may_try) launchHome();
 }
 
@@ -158,12 +158,14 @@ void Mission::Impl::acceptWayHome(const RunningJob& job, const planners::PlanRes
   wants_way_home = false;
   const bool late = active ? now > job.takes_over_s + 1e-6
                            : distance(input.latest()->pose, job.pose) > kRouteGap_m;
-  const bool usable = home.status == planners::PlanStatus::kOk && !late &&
-                      isWayClear(home.path, robot.box_m);
+  const bool usable =
+      home.status == planners::PlanStatus::kOk && !late && isWayClear(home.path, robot.box_m);
   if (!usable) {
     next_ask_s = now + kHomeRetry_s;
     wants_way_home = !active;
-    if (!active) say(LogLevel::kWarn, "home", "the way home is blocked and the planner knows no other: " + home.reason);
+    if (!active)
+      say(LogLevel::kWarn, "home",
+          "the way home is blocked and the planner knows no other: " + home.reason);
     return;
   }
   const Path whole = joined(job, home.path);

@@ -40,7 +40,7 @@ struct KnownRoute {
 
 struct WayHome {
   Path path;
-  double travel_s = 0.0;  ///< Not pessimistic.
+  double travel_s = 0.0;        ///< Not pessimistic.
   bool follows_active = false;  ///< Begins with the rest of the active path.
 };
 

@@ -85,7 +85,8 @@ std::string Mission::Impl::startProblem() {
   bool collides = false;
   const Eigen::Vector3d body =
       kBodyShare * robot.box_m + Eigen::Vector3d::Constant(view->resolution());  // touched voxels
-  view->forEachOccupied(boxAround(position, body), [&](const map::VoxelIndex&) { collides = true; });
+  view->forEachOccupied(boxAround(position, body),
+                        [&](const map::VoxelIndex&) { collides = true; });
   if (collides) return "start in collision: the map is occupied where the robot stands";
   return "";
 }

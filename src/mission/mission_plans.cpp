@@ -13,11 +13,11 @@ constexpr int kScansBeforePlan = 3;
 constexpr int kFailuresBeforeHome = 5;
 constexpr double kRetryPeriod_s = 0.5;
 constexpr double kRetryInFlight_s = 1.0;
-constexpr double kAskBeforeEnd_s = 0.5;   // on top of plan_ahead_s
+constexpr double kAskBeforeEnd_s = 0.5;  // on top of plan_ahead_s
 constexpr double kLatencySlack = 1.3;
 constexpr double kSpliceClearance_m = 1.0;
 constexpr double kCutStep_m = 1.0;
-constexpr double kShortestCut_m = 2.0;    // less is not worth the way
+constexpr double kShortestCut_m = 2.0;  // less is not worth the way
 constexpr double kStartGap_m = 0.5;
 constexpr double kCornerTolerances_m[] = {0.6, 0.3};
 constexpr double kLeastTolerance_m = 0.1;
@@ -138,7 +138,8 @@ navigation::PathCheck Mission::Impl::checkProposal(const Path& path) {
 void Mission::Impl::acceptExploration(const RunningJob& job, const PlanOutcome& outcome) {
   if (outcome.plan.status != planners::PlanStatus::kOk) return onNoPlan(job, outcome.plan);
   const bool splices = active && now <= job.takes_over_s + 1e-6;
-  const bool stands = !active && (input.latest()->pose.position - job.pose.position).norm() < kStartGap_m;
+  const bool stands =
+      !active && (input.latest()->pose.position - job.pose.position).norm() < kStartGap_m;
   if (!splices && !stands)
     return refuse("the plan came too late: its start lies behind the robot",
                   planners::PathOutcome::kRejectedUnsafe);
@@ -172,8 +173,7 @@ double Mission::Impl::affordableLength(const Path& path, const std::optional<Pat
   for (double end = length; end > 0.0; end -= kCutStep_m) {
     const Path part = slice(path, 0.0, end);
     const double there_s = navigation::travelTime(part, limits_of_robot);
-    const double onward_s =
-        home_from_end + (length - end) / limits_of_robot.speed_mps;
+    const double onward_s = home_from_end + (length - end) / limits_of_robot.speed_mps;
     const double home_s = std::min(there_s + way_home_s, onward_s);
     if (guard.marginAfter(there_s, home_s) >= 0.0) return end;
   }
@@ -200,8 +200,7 @@ void Mission::Impl::onNoPlan(const RunningJob& job, const planners::PlanResult& 
     if (active) next_ask_s = std::min(next_ask_s, active->endTime() + 0.1);
     return;
   }
-  if (plan.status == planners::PlanStatus::kNothingToGain)
-    return goHome(plan.reason);
+  if (plan.status == planners::PlanStatus::kNothingToGain) return goHome(plan.reason);
   if (plan.status == planners::PlanStatus::kBudgetSaysHome)
     return goHome("home by endurance: " + plan.reason);
   onFailedPlan(std::string(planners::toText(plan.status)) + ": " + plan.reason);
@@ -243,9 +242,12 @@ void Mission::Impl::fly(const Path& path, planners::PathKind kind, const Eigen::
   command = Command{std::move(whole), std::move(trajectory), kind};
   next_refresh_s = now;
   switch (kind) {
-    case planners::PathKind::kLocal: return enter(MissionState::kExplore, "local path");
-    case planners::PathKind::kReposition: return enter(MissionState::kReposition, "repositioning");
-    case planners::PathKind::kHome: return enter(MissionState::kHome, "flying home");
+    case planners::PathKind::kLocal:
+      return enter(MissionState::kExplore, "local path");
+    case planners::PathKind::kReposition:
+      return enter(MissionState::kReposition, "repositioning");
+    case planners::PathKind::kHome:
+      return enter(MissionState::kHome, "flying home");
   }
 }
 

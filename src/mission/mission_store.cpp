@@ -19,7 +19,9 @@ constexpr int kFormat = 1;
 /// JSON knows no infinity: null stands for "no limit".
 Json limitOf(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
 
-double limitFrom(const Json& json, double none) { return json.is_null() ? none : json.get<double>(); }
+double limitFrom(const Json& json, double none) {
+  return json.is_null() ? none : json.get<double>();
+}
 
 Json vectorOf(const Eigen::Vector3d& v) {
   return Json::array({limitOf(v.x()), limitOf(v.y()), limitOf(v.z())});
@@ -65,12 +67,13 @@ planners::GraphLayer layerFrom(const Json& json) {
   planners::GraphLayer layer;
   layer.name = json.at("name").get<std::string>();
   for (const Json& vertex : json.at("vertices"))
-    layer.vertices.push_back({vectorFrom(vertex, 0.0), vertex.at(3).get<double>(),
-                              vertex.at(4).get<bool>()});
+    layer.vertices.push_back(
+        {vectorFrom(vertex, 0.0), vertex.at(3).get<double>(), vertex.at(4).get<bool>()});
   for (const Json& edge : json.at("edges")) {
     layer.edges.emplace_back(edge.at(0).get<std::uint32_t>(), edge.at(1).get<std::uint32_t>());
     if (std::max(layer.edges.back().first, layer.edges.back().second) >= layer.vertices.size())
-      throw OutsideError("graph layer '" + layer.name + "' has an edge to a vertex it does not have");
+      throw OutsideError("graph layer '" + layer.name +
+                         "' has an edge to a vertex it does not have");
   }
   return layer;
 }
@@ -82,8 +85,8 @@ Json jsonOf(const MissionRecord& record) {
   for (const NoGoZone& zone : record.zones) json["zones"].push_back(zoneOf(zone));
   json["trail"] = Json::array();
   for (const Pose& pose : record.trail)
-    json["trail"].push_back(Json::array(
-        {pose.position.x(), pose.position.y(), pose.position.z(), pose.yaw}));
+    json["trail"].push_back(
+        Json::array({pose.position.x(), pose.position.y(), pose.position.z(), pose.yaw}));
   json["graph"] = Json::array();
   for (const planners::GraphLayer& layer : record.graph.layers)
     json["graph"].push_back(layerOf(layer));
@@ -113,7 +116,8 @@ void writeRecord(const std::string& folder, const MissionRecord& record) {
   std::ofstream file(temporary);
   file << jsonOf(record).dump() << '\n';
   file.close();
-  if (!file) throw OutsideError("cannot write '" + path + "': check the folder, its rights and space");
+  if (!file)
+    throw OutsideError("cannot write '" + path + "': check the folder, its rights and space");
   std::filesystem::rename(temporary, path, error);
   if (error) throw OutsideError("cannot write '" + path + "': " + error.message());
 }

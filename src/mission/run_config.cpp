@@ -27,8 +27,8 @@ void addNamed(ParamTree& tree, const std::string& folder, const std::string& kin
               const std::string& name) {
   const std::string path = folder + "/" + name + ".yaml";
   if (!fs::exists(path))
-    throw OutsideError("unknown " + kind + " '" + name + "' (no " + path + "); known: " +
-                       namesIn(folder));
+    throw OutsideError("unknown " + kind + " '" + name + "' (no " + path +
+                       "); known: " + namesIn(folder));
   tree.addYamlFile(path);
 }
 

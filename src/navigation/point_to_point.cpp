@@ -40,9 +40,8 @@ class FreeSpace {
   [[nodiscard]] bool isFree(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
     if (!request_.bounds.contains(a) || !request_.bounds.contains(b)) return false;
     const bool meets_zone =
-        std::any_of(request_.zones.begin(), request_.zones.end(), [&](const NoGoZone& zone) {
-          return sweptBoxMeets(zone, a, b, request_.box);
-        });
+        std::any_of(request_.zones.begin(), request_.zones.end(),
+                    [&](const NoGoZone& zone) { return sweptBoxMeets(zone, a, b, request_.box); });
     return !meets_zone && checker_.isFree(a, b);
   }
 
@@ -75,8 +74,8 @@ class SeededSampler : public ob::StateSampler {
     const Eigen::Vector3d middle = positionOf(centre);
     double* values = state->as<ob::RealVectorStateSpace::StateType>()->values;
     for (std::size_t axis = 0; axis < 3; ++axis)
-      values[axis] = std::clamp(middle[static_cast<Eigen::Index>(axis)] + draw(),
-                                bounds_.low[axis], bounds_.high[axis]);
+      values[axis] = std::clamp(middle[static_cast<Eigen::Index>(axis)] + draw(), bounds_.low[axis],
+                                bounds_.high[axis]);
   }
 
   ob::RealVectorBounds bounds_;
@@ -113,8 +112,8 @@ class Query {
     PointToPointResult result = checkEnds();
     if (!result.reason.empty()) return result;
     if (free_.isFree(request_.start.position, request_.goal.position)) {
-      result = {PointToPointStatus::kOk, "the straight line is free",
-                {request_.start, request_.goal}, 0};
+      result = {
+          PointToPointStatus::kOk, "the straight line is free", {request_.start, request_.goal}, 0};
       return result;
     }
     return search();
@@ -128,7 +127,9 @@ class Query {
       return {PointToPointStatus::kStartBlocked, "the start is not in known free space", {}, 0};
     if (!isPlaceFree(request_.goal))
       return {PointToPointStatus::kGoalBlocked,
-              "the goal is not in known free space or lies in a no-go zone", {}, 0};
+              "the goal is not in known free space or lies in a no-go zone",
+              {},
+              0};
     return {};
   }
 
@@ -183,7 +184,9 @@ class Query {
     if (status != ob::PlannerStatus::EXACT_SOLUTION)
       return {PointToPointStatus::kNoPath,
               "no path through known free space within " + std::to_string(request_.iterations) +
-                  " samples", {}, samples};
+                  " samples",
+              {},
+              samples};
     Path path = shortened(pathOf(*problem->getSolutionPath()->as<og::PathGeometric>()));
     path.front() = request_.start;  // cutting has rounded them
     path.back() = request_.goal;
@@ -237,11 +240,16 @@ class Query {
 
 const char* toText(PointToPointStatus status) {
   switch (status) {
-    case PointToPointStatus::kOk: return "ok";
-    case PointToPointStatus::kStartBlocked: return "start_blocked";
-    case PointToPointStatus::kGoalBlocked: return "goal_blocked";
-    case PointToPointStatus::kOutOfBounds: return "out_of_bounds";
-    case PointToPointStatus::kNoPath: return "no_path";
+    case PointToPointStatus::kOk:
+      return "ok";
+    case PointToPointStatus::kStartBlocked:
+      return "start_blocked";
+    case PointToPointStatus::kGoalBlocked:
+      return "goal_blocked";
+    case PointToPointStatus::kOutOfBounds:
+      return "out_of_bounds";
+    case PointToPointStatus::kNoPath:
+      return "no_path";
   }
   return "unknown";
 }

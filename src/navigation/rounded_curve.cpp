@@ -102,8 +102,8 @@ class CurveBuilder {
       const double angle = corner.turn_rad * k / steps;
       const Eigen::Vector3d inward = std::cos(angle) * corner.normal - std::sin(angle) * tangent;
       append({arc_m_ + length * k / steps, centre - corner.radius_m * inward,
-              std::cos(angle) * tangent + std::sin(angle) * corner.normal,
-              inward / corner.radius_m, false});
+              std::cos(angle) * tangent + std::sin(angle) * corner.normal, inward / corner.radius_m,
+              false});
     }
     arc_m_ += length;
   }

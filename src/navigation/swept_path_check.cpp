@@ -94,11 +94,16 @@ PathCheck checkSegment(const map::FrozenMap& map, const Eigen::Vector3d& a,
 
 const char* toText(PathFault fault) {
   switch (fault) {
-    case PathFault::kNone: return "free";
-    case PathFault::kOccupied: return "occupied";
-    case PathFault::kUnknown: return "unknown";
-    case PathFault::kOutOfBounds: return "out of bounds";
-    case PathFault::kNoGo: return "no-go zone";
+    case PathFault::kNone:
+      return "free";
+    case PathFault::kOccupied:
+      return "occupied";
+    case PathFault::kUnknown:
+      return "unknown";
+    case PathFault::kOutOfBounds:
+      return "out of bounds";
+    case PathFault::kNoGo:
+      return "no-go zone";
   }
   return "unknown";
 }
@@ -131,10 +136,10 @@ struct SegmentChecker::Impl {
     const auto found = tiles.find(key);
     if (found != tiles.end()) return found->second;
     const Eigen::Vector3d low = kTile_m * index.cast<double>();
-    const Eigen::Vector3d margin = windowMargin(box, map->resolution()) +
-                                   Eigen::Vector3d::Constant(0.5 * kTile_m);
-    const map::LocalWindow local(
-        *map, around(low, low + Eigen::Vector3d::Constant(kTile_m), margin));
+    const Eigen::Vector3d margin =
+        windowMargin(box, map->resolution()) + Eigen::Vector3d::Constant(0.5 * kTile_m);
+    const map::LocalWindow local(*map,
+                                 around(low, low + Eigen::Vector3d::Constant(kTile_m), margin));
     return tiles.emplace(key, map::InflatedWindow(local, box)).first->second;
   }
 };
@@ -152,8 +157,7 @@ map::Occupancy SegmentChecker::sweep(const Eigen::Vector3d& a, const Eigen::Vect
   if (length <= kTile_m) return impl_->tileAt(0.5 * (a + b)).sweep(a, b);
   const SegmentFault found = checkOccupancy(*impl_->map, a, b, impl_->box);
   if (found.fault == PathFault::kNone) return map::Occupancy::kFree;
-  return found.fault == PathFault::kOccupied ? map::Occupancy::kOccupied
-                                             : map::Occupancy::kUnknown;
+  return found.fault == PathFault::kOccupied ? map::Occupancy::kOccupied : map::Occupancy::kUnknown;
 }
 
 bool SegmentChecker::isFree(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {

@@ -14,7 +14,7 @@ constexpr double kCurveStep_m = 0.05;
 constexpr double kPointPeriod_s = 0.1;
 constexpr double kSidewaysShare = 0.8;  // of the acceleration; 0.6 are then left along the curve
 constexpr double kDefaultTolerance_m = 0.1;
-constexpr double kLeastSlope = 0.2;     // horizontal share of a direction that shows a heading
+constexpr double kLeastSlope = 0.2;  // horizontal share of a direction that shows a heading
 
 /// Speed along a curve, one value a sample; acceleration is constant between samples.
 struct SpeedProfile {
@@ -107,8 +107,7 @@ TrajectoryPoint pointAt(const std::vector<CurveSample>& curve, const SpeedProfil
   const double share =
       std::clamp((profile.speed_mps[i] + 0.5 * along * tau) * tau / length, 0.0, 1.0);
   const Eigen::Vector3d tangent_in = a.is_cusp ? Eigen::Vector3d(b.tangent) : a.tangent;
-  const Eigen::Vector3d tangent =
-      (tangent_in + share * (b.tangent - tangent_in)).normalized();
+  const Eigen::Vector3d tangent = (tangent_in + share * (b.tangent - tangent_in)).normalized();
   point.pose.position = a.position + share * (b.position - a.position);
   point.velocity = speed * tangent;
   point.acceleration = along * tangent + speed * speed * curvatureBetween(a, b);
@@ -167,8 +166,8 @@ void addHeadings(Trajectory& points, const MotionLimits& limits, const Pose& fir
 double turnTime(double angle, const MotionLimits& limits) {
   const double size = std::abs(angle);
   if (size < 1e-6) return 0.0;
-  const double rate = std::min(limits.yaw_rate_radps,
-                               std::sqrt(0.7 * limits.yaw_acceleration_radps2 * size));
+  const double rate =
+      std::min(limits.yaw_rate_radps, std::sqrt(0.7 * limits.yaw_acceleration_radps2 * size));
   return size / rate + 2.0 * rate / limits.yaw_acceleration_radps2 + 0.5;
 }
 
@@ -200,8 +199,8 @@ Trajectory sampled(const std::vector<CurveSample>& curve, const SpeedProfile& pr
 }
 
 void checkLimits(const MotionLimits& limits) {
-  require(limits.speed_mps > 0.0 && limits.acceleration_mps2 > 0.0 &&
-              limits.yaw_rate_radps > 0.0 && limits.yaw_acceleration_radps2 > 0.0,
+  require(limits.speed_mps > 0.0 && limits.acceleration_mps2 > 0.0 && limits.yaw_rate_radps > 0.0 &&
+              limits.yaw_acceleration_radps2 > 0.0,
           "timed: limits must be positive");
 }
 
@@ -213,8 +212,7 @@ Trajectory timed(const Path& path, const MotionLimits& limits, const MotionStart
   checkLimits(limits);
   const auto curve = roundedCurve(path, corner_tolerance_m, kCurveStep_m);
   const bool moves = curve.size() > 1;
-  const double speed =
-      moves ? std::max(0.0, start.velocity.dot(curve.front().tangent)) : 0.0;
+  const double speed = moves ? std::max(0.0, start.velocity.dot(curve.front().tangent)) : 0.0;
   const SpeedProfile profile = profileOf(curve, limits, speed);
   const Eigen::Vector3d taken_up =
       moves ? Eigen::Vector3d(profile.speed_mps.front() * curve.front().tangent)

@@ -20,21 +20,30 @@ void checkResult(const PlanResult& result) {
 
 const char* toText(PlanStatus status) {
   switch (status) {
-    case PlanStatus::kOk: return "ok";
-    case PlanStatus::kNothingToGain: return "nothing_to_gain";
-    case PlanStatus::kBudgetSaysHome: return "budget_says_home";
-    case PlanStatus::kStartBlocked: return "start_blocked";
-    case PlanStatus::kOutOfBounds: return "out_of_bounds";
-    case PlanStatus::kNoPath: return "no_path";
+    case PlanStatus::kOk:
+      return "ok";
+    case PlanStatus::kNothingToGain:
+      return "nothing_to_gain";
+    case PlanStatus::kBudgetSaysHome:
+      return "budget_says_home";
+    case PlanStatus::kStartBlocked:
+      return "start_blocked";
+    case PlanStatus::kOutOfBounds:
+      return "out_of_bounds";
+    case PlanStatus::kNoPath:
+      return "no_path";
   }
   return "unknown";
 }
 
 const char* toText(PathKind kind) {
   switch (kind) {
-    case PathKind::kLocal: return "local";
-    case PathKind::kReposition: return "reposition";
-    case PathKind::kHome: return "home";
+    case PathKind::kLocal:
+      return "local";
+    case PathKind::kReposition:
+      return "reposition";
+    case PathKind::kHome:
+      return "home";
   }
   return "unknown";
 }

@@ -6,10 +6,21 @@
 namespace spelunk::planners {
 namespace {
 
-std::unique_ptr<ExplorationPlanner> makeGbPlanner(ParamTree& tree, const RobotModel& robot,
-                                                  double resolution_m) {
+gbplanner::GbPlannerParams gbPlannerParams(ParamTree& tree) {
   gbplanner::GbPlannerParams params;
   tree.read("gbplanner", params);
+  return params;
+}
+
+[[noreturn]] void refuseUnknown(const std::string& name) {
+  std::string known;
+  for (const std::string& each : plannerNames()) known += (known.empty() ? "" : ", ") + each;
+  throw OutsideError("planner \"" + name + "\" is not known; choose one of: " + known);
+}
+
+std::unique_ptr<ExplorationPlanner> makeGbPlanner(ParamTree& tree, const RobotModel& robot,
+                                                  double resolution_m) {
+  const gbplanner::GbPlannerParams params = gbPlannerParams(tree);
   for (const std::string& problem : params.problems()) tree.addProblem("gbplanner: " + problem);
   return std::make_unique<gbplanner::GbPlanner>(params, robot, resolution_m);
 }
@@ -18,12 +29,15 @@ std::unique_ptr<ExplorationPlanner> makeGbPlanner(ParamTree& tree, const RobotMo
 
 std::vector<std::string> plannerNames() { return {"gbplanner"}; }
 
+std::vector<ParamDescription> describePlanner(const std::string& name, ParamTree& tree) {
+  if (name == "gbplanner") return describe("gbplanner", gbPlannerParams(tree));
+  refuseUnknown(name);
+}
+
 std::unique_ptr<ExplorationPlanner> makePlanner(const std::string& name, ParamTree& tree,
                                                 const RobotModel& robot, double resolution_m) {
   if (name == "gbplanner") return makeGbPlanner(tree, robot, resolution_m);
-  std::string known;
-  for (const std::string& each : plannerNames()) known += (known.empty() ? "" : ", ") + each;
-  throw OutsideError("planner \"" + name + "\" is not known; choose one of: " + known);
+  refuseUnknown(name);
 }
 
 }  // namespace spelunk::planners

@@ -108,8 +108,7 @@ nav_msgs::Path toMsg(const Path& path, const std::string& frame, const ::ros::Ti
 }
 
 trajectory_msgs::MultiDOFJointTrajectory toMsg(const Trajectory& trajectory,
-                                               const std::string& frame,
-                                               const ::ros::Time& start) {
+                                               const std::string& frame, const ::ros::Time& start) {
   trajectory_msgs::MultiDOFJointTrajectory message;
   message.header.frame_id = frame;
   message.header.stamp = start;
@@ -233,7 +232,7 @@ FromMsg<double> remainingFromMsg(const sensor_msgs::BatteryState& message, doubl
   const double percentage = message.percentage;  // 0 .. 1 by the message's definition.
   if (percentage >= 0.0 && percentage <= 1.0) remaining_s = percentage * endurance_s;
   const double charge_ah = message.charge;
-  const double current_a = message.current;      // Negative while discharging.
+  const double current_a = message.current;  // Negative while discharging.
   if (charge_ah >= 0.0 && current_a < 0.0)
     remaining_s = std::min(remaining_s, charge_ah / -current_a * 3600.0);
   if (!std::isfinite(remaining_s))

@@ -52,8 +52,8 @@ Graph toMsg(const planners::PlannerGraph& graph, const std::string& frame,
   return message;
 }
 
-sensor_msgs::PointCloud2 toMsg(const std::vector<Eigen::Vector3f>& points,
-                               const std::string& frame, const ::ros::Time& stamp) {
+sensor_msgs::PointCloud2 toMsg(const std::vector<Eigen::Vector3f>& points, const std::string& frame,
+                               const ::ros::Time& stamp) {
   constexpr std::array<const char*, 3> kNames{"x", "y", "z"};
   static_assert(sizeof(Eigen::Vector3f) == 3 * sizeof(float));
   sensor_msgs::PointCloud2 message;

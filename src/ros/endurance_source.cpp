@@ -18,9 +18,8 @@ void EnduranceSource::onBattery(double remaining_s, double now_s) {
 double EnduranceSource::remaining(double now_s) const {
   const double flown_s = started_s_ ? std::max(0.0, now_s - *started_s_) : 0.0;
   const double budget_s = time_limit_s_ - flown_s;
-  const double battery_s = battery_
-                               ? battery_->remaining_s - std::max(0.0, now_s - battery_->at_s)
-                               : endurance_s_ - flown_s;
+  const double battery_s = battery_ ? battery_->remaining_s - std::max(0.0, now_s - battery_->at_s)
+                                    : endurance_s_ - flown_s;
   return std::max(0.0, std::min(budget_s, battery_s));
 }
 

@@ -15,13 +15,20 @@ using visualization_msgs::Marker;
 
 int typeOf(Shape shape) {
   switch (shape) {
-    case Shape::kPoints: return Marker::POINTS;
-    case Shape::kCubes: return Marker::CUBE_LIST;
-    case Shape::kSpheres: return Marker::SPHERE_LIST;
-    case Shape::kBox: return Marker::CUBE;
-    case Shape::kLineStrip: return Marker::LINE_STRIP;
-    case Shape::kLineList: return Marker::LINE_LIST;
-    case Shape::kText: return Marker::TEXT_VIEW_FACING;
+    case Shape::kPoints:
+      return Marker::POINTS;
+    case Shape::kCubes:
+      return Marker::CUBE_LIST;
+    case Shape::kSpheres:
+      return Marker::SPHERE_LIST;
+    case Shape::kBox:
+      return Marker::CUBE;
+    case Shape::kLineStrip:
+      return Marker::LINE_STRIP;
+    case Shape::kLineList:
+      return Marker::LINE_LIST;
+    case Shape::kText:
+      return Marker::TEXT_VIEW_FACING;
   }
   return Marker::POINTS;
 }

@@ -21,8 +21,7 @@ visualization_msgs::Marker meshMarker(const sim::WorldMesh& mesh, const std::str
   marker.colors.reserve(3 * mesh.triangles.size());
   for (const Eigen::Vector3i& triangle : mesh.triangles) {
     for (const int corner : triangle) {
-      const Eigen::Vector3d vertex =
-          mesh.vertices[static_cast<std::size_t>(corner)].cast<double>();
+      const Eigen::Vector3d vertex = mesh.vertices[static_cast<std::size_t>(corner)].cast<double>();
       const auto share = static_cast<float>((vertex.z() - bounds.min.z()) / height);
       std_msgs::ColorRGBA colour;
       colour.r = 0.35F + 0.4F * share;

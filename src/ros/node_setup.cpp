@@ -41,8 +41,7 @@ Params readNodeParams(const PrivateParams& given) {
 /// Both nodes read every section, so that one set of overrides serves both.
 template <class Params>
 mission::RunConfig loadConfig(const PrivateParams& given, const Params& params,
-                              const std::string& planner, sim::SimParams& sim,
-                              CloudParams& cloud) {
+                              const std::string& planner, sim::SimParams& sim, CloudParams& cloud) {
   mission::RunChoice choice;
   choice.share_dir = params.share_dir;
   choice.robot = params.robot;
@@ -83,8 +82,8 @@ PlannerSetup loadPlannerSetup(const ::ros::NodeHandle& private_node) {
   setup.node = readNodeParams<PlannerNodeParams>(given);
   sim::SimParams sim;
   mission::RunConfig config = loadConfig(given, setup.node, setup.node.planner, sim, setup.cloud);
-  setup.planner = planners::makePlanner(config.planner, config.tree, config.robot,
-                                        config.map.resolution_m);
+  setup.planner =
+      planners::makePlanner(config.planner, config.tree, config.robot, config.map.resolution_m);
   config.tree.requireClean();
   setup.robot = config.robot;
   setup.mission = config.mission;

@@ -14,11 +14,16 @@ using XmlRpc::XmlRpcValue;
 
 std::optional<std::string> scalarText(XmlRpcValue value) {  // A copy: its casts are not const.
   switch (value.getType()) {
-    case XmlRpcValue::TypeBoolean: return toText(static_cast<bool>(value));
-    case XmlRpcValue::TypeInt: return toText(static_cast<int>(value));
-    case XmlRpcValue::TypeDouble: return toText(static_cast<double>(value));
-    case XmlRpcValue::TypeString: return static_cast<std::string>(value);
-    default: return std::nullopt;
+    case XmlRpcValue::TypeBoolean:
+      return toText(static_cast<bool>(value));
+    case XmlRpcValue::TypeInt:
+      return toText(static_cast<int>(value));
+    case XmlRpcValue::TypeDouble:
+      return toText(static_cast<double>(value));
+    case XmlRpcValue::TypeString:
+      return static_cast<std::string>(value);
+    default:
+      return std::nullopt;
   }
 }
 
@@ -48,8 +53,8 @@ std::vector<FlatParam> flattened(const std::string& name, const XmlRpcValue& val
   if (copy.getType() != XmlRpcValue::TypeStruct) return {scalarParam(name, copy, origin)};
   std::vector<FlatParam> all;
   for (auto& [child, child_value] : copy)
-    for (FlatParam& param : flattened(name.empty() ? child : name + "." + child, child_value,
-                                      origin + "/" + child))
+    for (FlatParam& param :
+         flattened(name.empty() ? child : name + "." + child, child_value, origin + "/" + child))
       all.push_back(std::move(param));
   return all;
 }

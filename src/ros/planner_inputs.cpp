@@ -153,10 +153,12 @@ void PlannerInputs::onOdometry(const nav_msgs::Odometry::ConstPtr& odometry) {
     if (!T_world_frame.value)
       return report("odometry frame", "odometry is in frame '" + frame +
                                           "', which tf cannot bring into '" + params_.world_frame +
-                                          "' (" + T_world_frame.problem + "): publish that transform");
+                                          "' (" + T_world_frame.problem +
+                                          "): publish that transform");
     auto state = fromMsg(*odometry, *T_world_frame.value);
     if (!state.value)
-      return report("odometry content", "odometry " + state.problem + ": check the state estimator");
+      return report("odometry content",
+                    "odometry " + state.problem + ": check the state estimator");
     core_.with([&](MissionCore& c) {
       state.value->stamp_s = c.clock.toMission(odometry->header.stamp);
       c.robot = *state.value;

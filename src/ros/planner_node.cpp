@@ -32,13 +32,12 @@ PlannerNode::PlannerNode(const ::ros::NodeHandle& node, const ::ros::NodeHandle&
                                     [this](const ::ros::TimerEvent&) { tick(); })),
       view_spinner_(1, &view_queue_) {
   view_node_.setCallbackQueue(&view_queue_);
-  status_timer_ = view_node_.createWallTimer(::ros::WallDuration(kStatusPeriod_s),
-                                             [this](const ::ros::WallTimerEvent&) {
-                                               publishStatus();
-                                             });
-  view_timer_ = view_node_.createWallTimer(
-      ::ros::WallDuration(params_.view_period_s),
-      [this](const ::ros::WallTimerEvent&) { publishViews(); });
+  status_timer_ =
+      view_node_.createWallTimer(::ros::WallDuration(kStatusPeriod_s),
+                                 [this](const ::ros::WallTimerEvent&) { publishStatus(); });
+  view_timer_ =
+      view_node_.createWallTimer(::ros::WallDuration(params_.view_period_s),
+                                 [this](const ::ros::WallTimerEvent&) { publishViews(); });
   core_.with([&](MissionCore& core) { core.wants_start = params_.auto_start; });
   view_spinner_.start();
 }
@@ -86,8 +85,7 @@ void PlannerNode::startIfWanted(MissionCore& core, double now_s) {
     return;
   }
   if (!waits_since_s_) waits_since_s_ = now_s;
-  if (now_s - *waits_since_s_ > params_.silence_s &&
-      start_refusals_.allows(answer.reason, now_s))
+  if (now_s - *waits_since_s_ > params_.silence_s && start_refusals_.allows(answer.reason, now_s))
     log(LogLevel::kWarn, "not started yet: " + answer.reason);
 }
 

@@ -40,7 +40,8 @@ visualization::Scene sceneOf(const MissionView& view) {
 PlannerOutputs::PlannerOutputs(::ros::NodeHandle& node, const std::string& world_frame)
     : frame_(world_frame),
       path_(node.advertise<nav_msgs::Path>("path", 1, /*latch=*/true)),
-      trajectory_(node.advertise<trajectory_msgs::MultiDOFJointTrajectory>("command/trajectory", 1)),
+      trajectory_(
+          node.advertise<trajectory_msgs::MultiDOFJointTrajectory>("command/trajectory", 1)),
       status_(node.advertise<PlannerStatus>("status", 10)),
       graph_(node.advertise<Graph>("graph", 1)),
       markers_(node.advertise<visualization_msgs::MarkerArray>("markers", 1)),

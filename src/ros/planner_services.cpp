@@ -71,13 +71,13 @@ Rng PlannerServices::nextRng(const char* service) {
 bool PlannerServices::start(Trigger::Request& /*request*/, Trigger::Response& response) {
   return answering(response, &Trigger::Response::message, [&] {
     answer(core_.with([](MissionCore& core) {
-             const mission::Answer given = core.mission.start();
-             if (given.accepted) {
-               core.wants_start = false;
-               core.endurance.start(missionTime(core, ::ros::Time::now()));
-             }
-             return given;
-           }),
+      const mission::Answer given = core.mission.start();
+      if (given.accepted) {
+        core.wants_start = false;
+        core.endurance.start(missionTime(core, ::ros::Time::now()));
+      }
+      return given;
+    }),
            response);
   });
 }
@@ -85,9 +85,9 @@ bool PlannerServices::start(Trigger::Request& /*request*/, Trigger::Response& re
 bool PlannerServices::pause(Trigger::Request& /*request*/, Trigger::Response& response) {
   return answering(response, &Trigger::Response::message, [&] {
     answer(core_.with([](MissionCore& core) {
-             core.wants_start = false;
-             return core.mission.pause();
-           }),
+      core.wants_start = false;
+      return core.mission.pause();
+    }),
            response);
   });
 }
@@ -101,9 +101,9 @@ bool PlannerServices::home(Trigger::Request& /*request*/, Trigger::Response& res
 bool PlannerServices::emergencyStop(Trigger::Request& /*request*/, Trigger::Response& response) {
   return answering(response, &Trigger::Response::message, [&] {
     answer(core_.with([](MissionCore& core) {
-             core.wants_start = false;
-             return core.mission.emergencyStop();
-           }),
+      core.wants_start = false;
+      return core.mission.emergencyStop();
+    }),
            response);
   });
 }
@@ -159,8 +159,7 @@ bool PlannerServices::goTo(GoTo::Request& request, GoTo::Response& response) {
         core_.with([&](MissionCore& core) { return core.mission.goTo(found.path); });
     response.success = given.accepted;
     response.reason = given.reason;
-    if (given.accepted)
-      response.path = bridge::toMsg(found.path, world_frame_, ::ros::Time::now());
+    if (given.accepted) response.path = bridge::toMsg(found.path, world_frame_, ::ros::Time::now());
   });
 }
 

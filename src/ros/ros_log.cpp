@@ -9,9 +9,15 @@ namespace spelunk::bridge {
 void logToRos() {
   setLogSink([](LogLevel level, const std::string& text) {
     switch (level) {
-      case LogLevel::kInfo: ROS_INFO_STREAM(text); break;
-      case LogLevel::kWarn: ROS_WARN_STREAM(text); break;
-      case LogLevel::kError: ROS_ERROR_STREAM(text); break;
+      case LogLevel::kInfo:
+        ROS_INFO_STREAM(text);
+        break;
+      case LogLevel::kWarn:
+        ROS_WARN_STREAM(text);
+        break;
+      case LogLevel::kError:
+        ROS_ERROR_STREAM(text);
+        break;
     }
   });
 }

@@ -49,10 +49,11 @@ SimNode::SimNode(const ::ros::NodeHandle& node, SimSetup setup)
       collisions_(node_.advertise<std_msgs::UInt32>("collisions", 5, /*latch=*/true)),
       mesh_publisher_(node_.advertise<visualization_msgs::Marker>(
           "mesh", 1,
-          [this](const ::ros::SingleSubscriberPublisher& subscriber) { subscriber.publish(mesh_); })),
-      trajectory_subscriber_(
-          node_.subscribe("command/trajectory", 5, &SimNode::onTrajectory, this,
-                          ::ros::TransportHints().tcpNoDelay())),
+          [this](const ::ros::SingleSubscriberPublisher& subscriber) {
+            subscriber.publish(mesh_);
+          })),
+      trajectory_subscriber_(node_.subscribe("command/trajectory", 5, &SimNode::onTrajectory, this,
+                                             ::ros::TransportHints().tcpNoDelay())),
       path_subscriber_(node_.subscribe("path", 5, &SimNode::onPath, this)) {}
 
 void SimNode::run() {
@@ -115,7 +116,8 @@ void SimNode::publishBattery() {
   message.present = true;
   message.voltage = static_cast<float>(kVoltage_v);
   message.charge = static_cast<float>(state.energy_wh / kVoltage_v);
-  const double capacity_ah = state.fraction > 0.0 ? state.energy_wh / state.fraction / kVoltage_v : 0.0;
+  const double capacity_ah =
+      state.fraction > 0.0 ? state.energy_wh / state.fraction / kVoltage_v : 0.0;
   message.capacity = static_cast<float>(capacity_ah);
   message.design_capacity = message.capacity;
   message.percentage = static_cast<float>(state.fraction);

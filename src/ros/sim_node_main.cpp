@@ -11,8 +11,7 @@ int main(int argc, char** argv) {
   spelunk::bridge::logToRos();
   try {
     const ros::NodeHandle node;
-    spelunk::bridge::SimNode simulator(node,
-                                       spelunk::bridge::loadSimSetup(ros::NodeHandle("~")));
+    spelunk::bridge::SimNode simulator(node, spelunk::bridge::loadSimSetup(ros::NodeHandle("~")));
     simulator.run();
   } catch (const std::exception& error) {
     ROS_FATAL_STREAM(error.what());

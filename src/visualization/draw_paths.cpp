@@ -1,6 +1,6 @@
-#include "spelunk/visualization/draw.h"
-
 #include <cmath>
+
+#include "spelunk/visualization/draw.h"
 
 namespace spelunk::visualization {
 namespace {
@@ -19,9 +19,12 @@ void drawLine(const std::string& layer, const Path& path, Colour colour, double 
 
 Colour colourOf(planners::PathKind kind) {
   switch (kind) {
-    case planners::PathKind::kLocal: return {0.15F, 0.95F, 0.35F, 1.0F};
-    case planners::PathKind::kReposition: return {1.0F, 0.55F, 0.1F, 1.0F};
-    case planners::PathKind::kHome: return {0.3F, 0.7F, 1.0F, 1.0F};
+    case planners::PathKind::kLocal:
+      return {0.15F, 0.95F, 0.35F, 1.0F};
+    case planners::PathKind::kReposition:
+      return {1.0F, 0.55F, 0.1F, 1.0F};
+    case planners::PathKind::kHome:
+      return {0.3F, 0.7F, 1.0F, 1.0F};
   }
   return {};
 }

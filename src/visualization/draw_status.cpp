@@ -31,12 +31,11 @@ std::string format(const char* pattern, Values... values) {
 }  // namespace
 
 std::string statusText(const mission::MissionStatus& status) {
-  std::string text = std::string(mission::toText(status.state)) +
-                     format("   %.0f s\n", status.time_s) +
-                     format("explored %.0f m3, flown %.0f m\n", status.known_volume_m3,
-                            status.distance_m) +
-                     format("endurance %.0f s, home %.0f s, margin %.0f s", status.remaining_s,
-                            status.way_home_s, status.margin_s);
+  std::string text =
+      std::string(mission::toText(status.state)) + format("   %.0f s\n", status.time_s) +
+      format("explored %.0f m3, flown %.0f m\n", status.known_volume_m3, status.distance_m) +
+      format("endurance %.0f s, home %.0f s, margin %.0f s", status.remaining_s, status.way_home_s,
+             status.margin_s);
   const std::string& why = status.end_reason.empty() ? status.reason : status.end_reason;
   if (!why.empty()) text += "\n" + wrapped(why);
   return text;

@@ -15,8 +15,7 @@ using Names = std::set<std::string>;
 
 /// Which module may include which; every module may include itself and common.
 const std::map<std::string, Names>& allowedArrows() {
-  static const Names kCore{"map",     "terrain", "graph", "planners", "navigation",
-                           "mission", "fleet"};
+  static const Names kCore{"map", "terrain", "graph", "planners", "navigation", "mission", "fleet"};
   static const auto with = [](Names names, const Names& more) {
     names.insert(more.begin(), more.end());
     return names;
@@ -74,7 +73,7 @@ TEST(Layout, EveryIncludeFollowsAnArrow) {
 }
 
 TEST(Layout, MissionKnowsPlannersByTheirInterfaceOnly) {
-  const Names interface{"exploration_planner.h", "factory.h"};
+  const Names interface { "exploration_planner.h", "factory.h" };
   for (const Include& include : includesOf(SPELUNK_SOURCE_DIR)) {
     const auto at = include.line.find("spelunk/planners/");
     if (include.module != "mission" || at == std::string::npos) continue;
@@ -84,8 +83,9 @@ TEST(Layout, MissionKnowsPlannersByTheirInterfaceOnly) {
 }
 
 TEST(Layout, OnlyRosMentionsRos) {
-  const std::regex ros("#include [<\"](ros|tf2|tf2_ros|sensor_msgs|nav_msgs|geometry_msgs|std_msgs|"
-                       "std_srvs|visualization_msgs|trajectory_msgs|rosgraph_msgs)/.*");
+  const std::regex ros(
+      "#include [<\"](ros|tf2|tf2_ros|sensor_msgs|nav_msgs|geometry_msgs|std_msgs|"
+      "std_srvs|visualization_msgs|trajectory_msgs|rosgraph_msgs)/.*");
   for (const Include& include : includesOf(SPELUNK_SOURCE_DIR)) {
     if (include.module == "ros") continue;
     EXPECT_FALSE(std::regex_match(include.line, ros)) << include.file << ": " << include.line;
@@ -93,10 +93,8 @@ TEST(Layout, OnlyRosMentionsRos) {
 }
 
 TEST(Layout, HeavyLibrariesStayInTheirModulesSources) {
-  const std::map<std::string, std::string> owner{{"ompl/", "navigation"},
-                                                 {"embree3/", "sim"},
-                                                 {"assimp/", "sim"},
-                                                 {"pcl/", "ros"}};
+  const std::map<std::string, std::string> owner{
+      {"ompl/", "navigation"}, {"embree3/", "sim"}, {"assimp/", "sim"}, {"pcl/", "ros"}};
   for (const Include& include : includesOf(SPELUNK_SOURCE_DIR))
     for (const auto& [library, module] : owner) {
       if (include.line.find("<" + library) == std::string::npos) continue;

@@ -47,8 +47,9 @@ std::string writeFile(const std::string& text) {
 
 TEST(ParamTree, ReadsEveryTypeFromYamlAndAssignmentsWin) {
   ParamTree tree;
-  tree.addYamlFile(writeFile("s:\n  length_m: 1.5\n  count: 7\n  is_on: true\n  label: b\n"
-                             "  size_m: [4, 5, 6]\n  names: [x, y]\n"));
+  tree.addYamlFile(
+      writeFile("s:\n  length_m: 1.5\n  count: 7\n  is_on: true\n  label: b\n"
+                "  size_m: [4, 5, 6]\n  names: [x, y]\n"));
   tree.setAssignment("s.count=8", "--set");
   SampleParams params;
   tree.read("s", params);
@@ -117,7 +118,8 @@ TEST(ParamTree, NumbersAreReadWholeOrNotAtAll) {
     }
   };
   for (const char* good : {"1", "+2", ".5", "1e-3", " 8.0 "}) EXPECT_TRUE(isRead(good)) << good;
-  for (const char* bad : {"", "-", "1m", "1 2", "e5", "--1", "0x"}) EXPECT_FALSE(isRead(bad)) << bad;
+  for (const char* bad : {"", "-", "1m", "1 2", "e5", "--1", "0x"})
+    EXPECT_FALSE(isRead(bad)) << bad;
 }
 
 TEST(ParamTree, NamesAMissingOrBrokenFile) {

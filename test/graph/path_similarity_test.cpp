@@ -61,12 +61,11 @@ TEST(Resampled, KeepsEndsAndSpacingAroundCorners) {
 }
 
 TEST(ClusterPaths, GroupsBranchesAndNamesTheLongestOfEach) {
-  const std::vector<Polyline> paths{
-      {{0, 0, 0}, {6, 0.3, 0}},    // east
-      {{0, 0, 0}, {0.2, 9, 0}},    // north, the longest there
-      {{0, 0, 0}, {10, 0, 0}},     // east, the longest there
-      {{0, 0, 0}, {-0.3, 5, 0}},   // north
-      {{0, 0, 0}, {7, 0, 0.2}}};   // east
+  const std::vector<Polyline> paths{{{0, 0, 0}, {6, 0.3, 0}},   // east
+                                    {{0, 0, 0}, {0.2, 9, 0}},   // north, the longest there
+                                    {{0, 0, 0}, {10, 0, 0}},    // east, the longest there
+                                    {{0, 0, 0}, {-0.3, 5, 0}},  // north
+                                    {{0, 0, 0}, {7, 0, 0.2}}};  // east
   const std::vector<PathCluster> clusters = clusterPaths(paths, 1.0, 1.0);
   ASSERT_EQ(clusters.size(), 2U);
   EXPECT_EQ(clusters[0].principal, 2U);

@@ -57,8 +57,7 @@ TEST(PointIndex, AgreesWithBruteForceWhilePointsArrive) {
 TEST(PointIndex, OrdersEqualDistancesByIndex) {
   PointIndex index;
   for (const double x : {1.0, -1.0, 1.0, -1.0}) index.add({x, 0.0, 0.0});
-  EXPECT_EQ(index.findWithin(Eigen::Vector3d::Zero(), 2.0),
-            (std::vector<std::size_t>{0, 1, 2, 3}));
+  EXPECT_EQ(index.findWithin(Eigen::Vector3d::Zero(), 2.0), (std::vector<std::size_t>{0, 1, 2, 3}));
 }
 
 TEST(PointIndex, KeepsItsPointsWhenMoved) {

@@ -65,7 +65,8 @@ TEST(ShortestPaths, GiveAPathWhoseEdgesExistAndAddUp) {
     double sum = 0.0;
     for (std::size_t k = 1; k < path.size(); ++k) {
       ASSERT_TRUE(graph.hasEdge(path[k - 1], path[k]));
-      for (const Neighbour& n : graph.neighbours(path[k - 1])) sum += n.id == path[k] ? n.weight : 0;
+      for (const Neighbour& n : graph.neighbours(path[k - 1]))
+        sum += n.id == path[k] ? n.weight : 0;
     }
     EXPECT_EQ(path.front(), vertex(0));
     EXPECT_EQ(path.back(), vertex(i));

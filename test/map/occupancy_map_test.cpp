@@ -142,7 +142,8 @@ TEST(OccupancyMap, MarkFreeFreesUnknownVoxelsOnly) {
   EXPECT_EQ(map.at({2.1, 0.1, 0.1}), Occupancy::kOccupied);
   EXPECT_EQ(map.at({2.3, 0.3, -0.1}), Occupancy::kFree);
   EXPECT_EQ(map.at({2.5, 0.1, 0.1}), Occupancy::kUnknown) << "a box that ends on a face";
-  EXPECT_EQ(map.octree().search(2.3, 0.3, -0.1)->getLogOdds(), octomap::logodds(MapParams{}.miss_probability));
+  EXPECT_EQ(map.octree().search(2.3, 0.3, -0.1)->getLogOdds(),
+            octomap::logodds(MapParams{}.miss_probability));
 }
 
 TEST(OccupancyMap, MarkFreeHoldsEvenIfOneMissIsNotEnough) {

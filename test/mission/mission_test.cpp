@@ -123,7 +123,8 @@ TEST_F(CorridorMission, StopsBeforeNewObstacleAndSaysWhy) {
   }
   EXPECT_TRUE(said);
   EXPECT_EQ(flight.collisions(), 0);
-  EXPECT_GE(flight.mission().status().replans_obstacle + flight.mission().status().refused_paths, 1);
+  EXPECT_GE(flight.mission().status().replans_obstacle + flight.mission().status().refused_paths,
+            1);
   EXPECT_TRUE(flight.flyToTheEnd(90.0));
 }
 

@@ -9,8 +9,11 @@ namespace {
 
 PathExecution straight() {
   const Path path{{{0.0, 0.0, 1.0}, 0.0}, {{10.0, 0.0, 1.0}, 0.0}};
-  return {path, navigation::timed(path, {2.0, 2.0, 1.0, 2.0}, {5.0, Eigen::Vector3d::Zero(), 0.0}),
-          planners::PathKind::kLocal, {0.8, 0.8, 0.4}, 0.25};
+  return {path,
+          navigation::timed(path, {2.0, 2.0, 1.0, 2.0}, {5.0, Eigen::Vector3d::Zero(), 0.0}),
+          planners::PathKind::kLocal,
+          {0.8, 0.8, 0.4},
+          0.25};
 }
 
 TEST(PathExecution, ArcGrowsWithTimeUpToLength) {

@@ -2,7 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "spelunk/common/contract.h"
+#include "spelunk/planners/factory.h"
 
 namespace spelunk::mission {
 namespace {
@@ -19,6 +22,23 @@ TEST(RunConfig, ReadsShippedFiles) {
   EXPECT_FALSE(config.robot.sensor_models.empty());
   EXPECT_EQ(config.map.resolution_m, 0.2);
   EXPECT_GT(config.mission.reserve_s, 0.0);
+}
+
+TEST(RunConfig, FewParametersNeedALook) {
+  RunConfig config = loadRunConfig(shipped());
+  auto lines = describe("robot", config.robot);
+  const auto append = [&](const std::vector<ParamDescription>& more) {
+    lines.insert(lines.end(), more.begin(), more.end());
+  };
+  append(describe("map", config.map));
+  append(describe("mission", config.mission));
+  append(planners::describePlanner("gbplanner", config.tree));
+  const auto is_for_users = [](const ParamDescription& line) {
+    return line.audience == Audience::kUser;
+  };
+  const auto count = std::count_if(lines.begin(), lines.end(), is_for_users);
+  EXPECT_LE(count, 15);
+  EXPECT_GE(count, 8);
 }
 
 TEST(RunConfig, AssignmentsWin) {

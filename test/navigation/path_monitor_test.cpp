@@ -26,8 +26,9 @@ TEST(PathMonitor, AgreesWithTheBoxPutDownEveryCentimetre) {
   Rng rng(6);
   Path path{{{0.0, 0.0, 1.0}, 0.0}};
   for (int k = 0; k < 5; ++k)
-    path.push_back({path.back().position + Eigen::Vector3d(rng.uniform(-3, 4), rng.uniform(-3, 3),
-                                                           rng.uniform(-1, 1)), 0.0});
+    path.push_back({path.back().position +
+                        Eigen::Vector3d(rng.uniform(-3, 4), rng.uniform(-3, 3), rng.uniform(-1, 1)),
+                    0.0});
   const PathMonitor monitor(path, kBox, kResolution_m);
   int hits = 0;
   for (int k = 0; k < 1500; ++k) {

@@ -13,8 +13,9 @@ TEST(RoundedCurve, TangentsNeverJumpExceptAtCusps) {
   Rng rng(5);
   Path path{{Eigen::Vector3d::Zero(), 0.0}};
   for (int k = 0; k < 30; ++k)
-    path.push_back({path.back().position + Eigen::Vector3d(rng.uniform(-2, 3), rng.uniform(-2, 2),
-                                                           rng.uniform(-1, 1)), 0.0});
+    path.push_back({path.back().position +
+                        Eigen::Vector3d(rng.uniform(-2, 3), rng.uniform(-2, 2), rng.uniform(-1, 1)),
+                    0.0});
   const auto curve = roundedCurve(path, 0.3, 0.05);
   for (std::size_t i = 1; i < curve.size(); ++i) {
     EXPECT_GT(curve[i].arc_m, curve[i - 1].arc_m);
@@ -49,7 +50,7 @@ TEST(RoundedCurve, SharpReversalIsACusp) {
 
 TEST(Straightened, DropsWaypointsWithinToleranceOnly) {
   const Path path{{{0.0, 0.0, 0.0}, 0.0}, {{1.0, 0.02, 0.0}, 0.0}, {{2.0, 0.0, 0.0}, 0.0},
-                  {{3.0, 0.5, 0.0}, 0.0}, {{4.0, 0.0, 0.0}, 0.0}, {{4.0, 0.0, 0.0}, 0.0}};
+                  {{3.0, 0.5, 0.0}, 0.0}, {{4.0, 0.0, 0.0}, 0.0},  {{4.0, 0.0, 0.0}, 0.0}};
   const auto points = straightened(path, 0.05);
   ASSERT_EQ(points.size(), 4U);
   EXPECT_EQ(points[1], path[2].position);

@@ -54,8 +54,8 @@ TEST(SweptPathCheck, NeverCallsASweepFreeThatTouchesAnything) {
   constexpr int kSegments = 400;
   for (int k = 0; k < kSegments; ++k) {
     const Eigen::Vector3d a(rng.uniform(0.0, 25.0), rng.uniform(0.0, 15.0), rng.uniform(0.8, 3.2));
-    const Eigen::Vector3d b = a + Eigen::Vector3d(rng.uniform(-9, 9), rng.uniform(-9, 9),
-                                                  rng.uniform(-0.5, 0.5));
+    const Eigen::Vector3d b =
+        a + Eigen::Vector3d(rng.uniform(-9, 9), rng.uniform(-9, 9), rng.uniform(-0.5, 0.5));
     const bool answer = checkPath(*map, {{a, 0.0}, {b, 0.0}}, kBox, {}, {}).isFree();
     const bool expected = bruteForceFree(*map, a, b);
     const bool cached = checker.isFree(a, b);

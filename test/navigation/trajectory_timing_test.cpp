@@ -29,8 +29,9 @@ Path gentleCurve() {
   double heading = 0.0;
   for (int k = 0; k < 40; ++k) {
     heading += 8.0 * M_PI / 180.0 * (k % 20 < 10 ? 1.0 : -1.0);
-    path.push_back({path.back().position +
-                        Eigen::Vector3d(std::cos(heading), std::sin(heading), 0.0), heading});
+    path.push_back(
+        {path.back().position + Eigen::Vector3d(std::cos(heading), std::sin(heading), 0.0),
+         heading});
   }
   return path;
 }
@@ -78,7 +79,8 @@ TEST(TrajectoryTiming, VelocityIsTheRateOfPosition) {
     const double step = trajectory[i].time_s - trajectory[i - 1].time_s;
     ASSERT_GT(step, 0.0);
     EXPECT_LE(step, 0.13);
-    const Eigen::Vector3d mean = (trajectory[i].pose.position - trajectory[i - 1].pose.position) / step;
+    const Eigen::Vector3d mean =
+        (trajectory[i].pose.position - trajectory[i - 1].pose.position) / step;
     const Eigen::Vector3d expected = 0.5 * (trajectory[i].velocity + trajectory[i - 1].velocity);
     EXPECT_LT((mean - expected).norm(), 0.12);
   }

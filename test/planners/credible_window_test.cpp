@@ -16,8 +16,8 @@ constexpr int kNz = 14;
 
 map::LocalWindow windowOf(const std::vector<std::uint8_t>& cells) {
   map::OccupancyMap map{map::MapParams{}};
-  const map::LocalWindow empty(*map.freeze(),
-                               {{0.05, 0.05, 0.05}, {kNx * 0.2 - 0.05, kNy * 0.2 - 0.05, kNz * 0.2 - 0.05}});
+  const map::LocalWindow empty(
+      *map.freeze(), {{0.05, 0.05, 0.05}, {kNx * 0.2 - 0.05, kNy * 0.2 - 0.05, kNz * 0.2 - 0.05}});
   return empty.withCells(cells);
 }
 
@@ -89,7 +89,8 @@ TEST(CredibleWindow, ClosesGapsBetweenRowsOfAFarWall) {
   Grid grid;
   grid.at(5, 5, 2) = grid.at(5, 5, 7) = 2;
   const map::LocalWindow credible = credibleWindow(windowOf(grid.cells), {1.4, 0.4});
-  for (int z = 2; z <= 7; ++z) EXPECT_EQ(credible.at(map::VoxelIndex(5, 5, z)), map::Occupancy::kOccupied);
+  for (int z = 2; z <= 7; ++z)
+    EXPECT_EQ(credible.at(map::VoxelIndex(5, 5, z)), map::Occupancy::kOccupied);
 }
 
 TEST(CredibleWindow, ShutsAHoleInAWallAndKeepsTheOpenEndOfAGallery) {

@@ -16,8 +16,8 @@ TEST(ExplorationGain, SumsGainsDiscountedByDistanceAlongThePath) {
               1e-12);
   EXPECT_NEAR(discountedGain(path, {10.0, 20.0, 40.0}, 0.1, PathGainCounting::kBestVertex),
               40.0 * std::exp(-0.7), 1e-12);
-  EXPECT_THROW(
-      static_cast<void>(discountedGain(path, {1.0}, 0.1, PathGainCounting::kSum)), Precondition);
+  EXPECT_THROW(static_cast<void>(discountedGain(path, {1.0}, 0.1, PathGainCounting::kSum)),
+               Precondition);
 }
 
 TEST(ExplorationGain, FindsNoDissimilarityStraightAheadAndMostBackwards) {

@@ -23,7 +23,9 @@ class AnOpenPlain : public ::testing::Test {
               return crosses && std::max(a.y(), b.y()) > 0.0 ? map::Occupancy::kOccupied
                                                              : map::Occupancy::kFree;
             },
-            {1.0, 1.0, 0.4}, bounds_, zones_};
+            {1.0, 1.0, 0.4},
+            bounds_,
+            zones_};
   }
   void addLine(const Eigen::Vector3d& from, const Eigen::Vector3d& to) {
     global_.addPath({from, to}, space());

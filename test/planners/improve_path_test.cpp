@@ -20,8 +20,8 @@ class ACorridor : public ::testing::Test {
     map::OccupancyMap map(params);
     test::corridorWorld(24.0).enterInto(map);
     frozen_ = map.freeze();
-    window_ = std::make_unique<map::LocalWindow>(
-        *frozen_, AxisAlignedBox{{0.0, 0.0, 0.0}, {24.0, 5.0, 5.0}});
+    window_ = std::make_unique<map::LocalWindow>(*frozen_,
+                                                 AxisAlignedBox{{0.0, 0.0, 0.0}, {24.0, 5.0, 5.0}});
     inflated_ = std::make_unique<map::InflatedWindow>(*window_, kBox);
   }
   [[nodiscard]] FreeSpace space() const {

@@ -19,8 +19,8 @@ class AKnownCorridor : public ::testing::Test {
     map_params.range_min_m = 0.0;
     map::OccupancyMap map(map_params);
     test::corridorWorld(24.0).enterInto(map);
-    window_ = std::make_unique<map::LocalWindow>(
-        *map.freeze(), AxisAlignedBox{{0.0, 0.0, 0.0}, {24.0, 5.0, 5.0}});
+    window_ = std::make_unique<map::LocalWindow>(*map.freeze(),
+                                                 AxisAlignedBox{{0.0, 0.0, 0.0}, {24.0, 5.0, 5.0}});
     inflated_ = std::make_unique<map::InflatedWindow>(*window_, kBox);
   }
   [[nodiscard]] FreeSpace space() const {

@@ -164,7 +164,8 @@ TEST_P(EveryPlanner, DoesNotProposeATargetForeverThatIsRefusedEachTime) {
   request_.last_outcome = PathOutcome::kRejectedUnsafe;
   request_.last_reason = "meets an obstacle";
   PlanResult result = first;
-  for (int i = 0; i < 60 && result.status == PlanStatus::kOk; ++i) result = planner_->plan(request_);
+  for (int i = 0; i < 60 && result.status == PlanStatus::kOk; ++i)
+    result = planner_->plan(request_);
   EXPECT_NE(result.status, PlanStatus::kOk) << "still tries after 60 refusals";
   EXPECT_FALSE(result.reason.empty());
 }

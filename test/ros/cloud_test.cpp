@@ -2,7 +2,6 @@
 #include <sensor_msgs/PointField.h>
 
 #include <boost/make_shared.hpp>
-
 #include <cmath>
 #include <cstring>
 #include <limits>

@@ -133,14 +133,13 @@ TEST(ConvertTrajectory, RefusesTimesThatDoNotRiseAndMissingTransforms) {
 }
 
 TEST(ConvertBounds, OpenSidesAreAllowedButNotNanOrEmptyBoxes) {
-  EXPECT_TRUE(boundsFromMsg(toMsg(Eigen::Vector3d(-kInf, -1, 0)),
-                            toMsg(Eigen::Vector3d(kInf, 1, 2)))
-                  .value);
-  EXPECT_FALSE(boundsFromMsg(toMsg(Eigen::Vector3d(kNan, -1, 0)),
-                             toMsg(Eigen::Vector3d(kInf, 1, 2)))
-                   .value);
-  EXPECT_FALSE(boundsFromMsg(toMsg(Eigen::Vector3d(2, -1, 0)), toMsg(Eigen::Vector3d(1, 1, 2)))
-                   .value);
+  EXPECT_TRUE(
+      boundsFromMsg(toMsg(Eigen::Vector3d(-kInf, -1, 0)), toMsg(Eigen::Vector3d(kInf, 1, 2)))
+          .value);
+  EXPECT_FALSE(
+      boundsFromMsg(toMsg(Eigen::Vector3d(kNan, -1, 0)), toMsg(Eigen::Vector3d(kInf, 1, 2))).value);
+  EXPECT_FALSE(
+      boundsFromMsg(toMsg(Eigen::Vector3d(2, -1, 0)), toMsg(Eigen::Vector3d(1, 1, 2))).value);
 }
 
 SetNoGoZones::Request oneZone() {

@@ -196,7 +196,8 @@ TEST(Markers, DeleteWhatTheNewSceneDoesNotHold) {
   const auto array = builder.build(one, "world", ros::Time(2.0));
   std::vector<std::pair<std::string, int>> gone;
   for (const auto& marker : array.markers)
-    if (marker.action == visualization_msgs::Marker::DELETE) gone.emplace_back(marker.ns, marker.id);
+    if (marker.action == visualization_msgs::Marker::DELETE)
+      gone.emplace_back(marker.ns, marker.id);
   EXPECT_EQ(gone, (std::vector<std::pair<std::string, int>>{{"a", 1}, {"b", 0}}));
   EXPECT_EQ(builder.build(one, "world", ros::Time(3.0)).markers.size(), 1U)
       << "nothing is deleted twice";

@@ -55,10 +55,11 @@ class GridWorld {
     Eigen::Vector3d step;
     for (int axis = 0; axis < 3; ++axis) {
       const double d = direction[axis];
-      step[axis] = std::abs(d) < 1e-12 ? std::numeric_limits<double>::infinity() : cell_m_ / std::abs(d);
+      step[axis] =
+          std::abs(d) < 1e-12 ? std::numeric_limits<double>::infinity() : cell_m_ / std::abs(d);
       const double edge = cell_m_ * (index[axis] + (d > 0.0 ? 1 : 0));
-      next[axis] = std::abs(d) < 1e-12 ? std::numeric_limits<double>::infinity()
-                                       : (edge - origin[axis]) / d;
+      next[axis] =
+          std::abs(d) < 1e-12 ? std::numeric_limits<double>::infinity() : (edge - origin[axis]) / d;
     }
     for (double t = 0.0; t < limit_m;) {
       if (isSolid(index)) return t;
@@ -119,7 +120,8 @@ class GridWorld {
   std::vector<char> solid_;
 };
 
-/// Rooms and corridors 3 m high, carved at random around the middle (16, 16, 2) of a 32 x 32 m plan.
+/// Rooms and corridors 3 m high, carved at random around the middle (16, 16, 2) of a 32 x 32 m
+/// plan.
 inline GridWorld randomMine(Rng rng) {
   GridWorld world({64, 64, 10}, 0.5);
   Eigen::Vector2d at(16.0, 16.0);
@@ -137,7 +139,8 @@ inline GridWorld randomMine(Rng rng) {
   return world;
 }
 
-/// A straight corridor along x, 3 m wide and high, with air from x = 1 to length - 1, y 1..4, z 1..4.
+/// A straight corridor along x, 3 m wide and high, with air from x = 1 to length - 1, y 1..4,
+/// z 1..4.
 inline GridWorld corridorWorld(double length_m) {
   GridWorld world({static_cast<int>(length_m / 0.5), 10, 10}, 0.5);
   world.carve({{1.0, 1.0, 1.0}, {length_m - 1.0, 4.0, 4.0}});

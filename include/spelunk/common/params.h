@@ -76,7 +76,7 @@ class ParamTree {
   void checkRange(const std::string& name, const Entry& entry, double value, Bounds bounds);
 
   std::map<std::string, Entry> entries_;
-  std::set<std::string> known_;  ///< Every name a struct asked for.
+  std::set<std::string> known_;                            ///< Every name a struct asked for.
   std::map<std::string, std::set<std::string>> consumed_;  ///< Entries read, and by which names.
   std::vector<std::string> problems_;
 };

@@ -15,10 +15,10 @@ class Rng {
   [[nodiscard]] Rng fork(std::string_view name) const;
 
   std::uint64_t next();
-  double uniform();                        ///< [0, 1)
+  double uniform();                         ///< [0, 1)
   double uniform(double low, double high);  ///< [low, high)
-  double normal();                         ///< Mean 0, variance 1 (Marsaglia's polar method).
-  int below(int count);                    ///< 0 .. count-1; count > 0.
+  double normal();                          ///< Mean 0, variance 1 (Marsaglia's polar method).
+  int below(int count);                     ///< 0 .. count-1; count > 0.
 
  private:
   std::uint64_t state_;

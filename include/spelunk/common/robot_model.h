@@ -15,29 +15,34 @@ enum class RobotKind { kAerial, kLegged };
 /// A robot as planner, mission and simulator know it (config/robots/*.yaml, section "robot").
 struct RobotModel {
   std::string name = "aerial";
-  std::string kind = "aerial";                       ///< "aerial" or "legged"
-  Eigen::Vector3d box_m{1.1, 1.1, 0.4};              ///< Full extents; axis-aligned, centred at base.
+  std::string kind = "aerial";           ///< "aerial" or "legged"
+  Eigen::Vector3d box_m{1.1, 1.1, 0.4};  ///< Full extents; axis-aligned, centred at base.
   double speed_max_mps = 2.0;
   double acceleration_max_mps2 = 2.0;
   double yaw_rate_max_radps = 1.2;
   double yaw_acceleration_max_radps2 = 3.0;
-  double braking_deceleration_mps2 = 2.5;            ///< What an emergency stop reaches for sure.
-  double reaction_time_s = 0.3;                      ///< From a new obstacle seen to braking.
-  double endurance_s = 900.0;                        ///< On a full battery, typical flight.
-  std::vector<std::string> sensors{"lidar_16"};      ///< Names in config/sensors.
-  std::vector<SensorModel> sensor_models;            ///< Filled by loadRobot.
+  double braking_deceleration_mps2 = 2.5;        ///< What an emergency stop reaches for sure.
+  double reaction_time_s = 0.3;                  ///< From a new obstacle seen to braking.
+  double endurance_s = 900.0;                    ///< On a full battery, typical flight.
+  std::vector<std::string> sensors{"lidar_16"};  ///< Names in config/sensors.
+  std::vector<SensorModel> sensor_models;        ///< Filled by loadRobot.
 
   template <class Visitor>
   void visit(Visitor&& field) {
     field("kind", kind, Bounds{}, "aerial or legged");
-    field("box_m", box_m, Bounds{0.05, 10.0}, "length, width, height, safety margin included", Audience::kUser);
+    field("box_m", box_m, Bounds{0.05, 10.0}, "length, width, height, safety margin included",
+          Audience::kUser);
     field("speed_max_mps", speed_max_mps, Bounds{0.05, 20.0}, "cruising speed", Audience::kUser);
-    field("acceleration_max_mps2", acceleration_max_mps2, Bounds{0.1, 20.0}, "acceleration of planned motion", Audience::kUser);
-    field("yaw_rate_max_radps", yaw_rate_max_radps, Bounds{0.05, 10.0}, "turning speed", Audience::kUser);
-    field("yaw_acceleration_max_radps2", yaw_acceleration_max_radps2, Bounds{0.1, 50.0}, "turning acceleration");
-    field("braking_deceleration_mps2", braking_deceleration_mps2, Bounds{0.1, 30.0}, "sure deceleration of a stop");
+    field("acceleration_max_mps2", acceleration_max_mps2, Bounds{0.1, 20.0},
+          "acceleration of planned motion");
+    field("yaw_rate_max_radps", yaw_rate_max_radps, Bounds{0.05, 10.0}, "turning speed");
+    field("yaw_acceleration_max_radps2", yaw_acceleration_max_radps2, Bounds{0.1, 50.0},
+          "turning acceleration");
+    field("braking_deceleration_mps2", braking_deceleration_mps2, Bounds{0.1, 30.0},
+          "sure deceleration of a stop");
     field("reaction_time_s", reaction_time_s, Bounds{0.0, 5.0}, "from seeing to braking");
-    field("endurance_s", endurance_s, Bounds{1.0, 1e6}, "flight time on a full battery", Audience::kUser);
+    field("endurance_s", endurance_s, Bounds{1.0, 1e6}, "flight time on a full battery",
+          Audience::kUser);
     field("sensors", sensors, Bounds{}, "names of files in config/sensors", Audience::kUser);
   }
   [[nodiscard]] std::vector<std::string> problems() const;

@@ -33,7 +33,8 @@ struct SensorModel {
   template <class Visitor>
   void visit(Visitor&& field) {
     field("kind", kind, Bounds{}, "lidar or depth_camera");
-    field("fov_horizontal_deg", fov_horizontal_deg, Bounds{1.0, 360.0}, "field of view, horizontal");
+    field("fov_horizontal_deg", fov_horizontal_deg, Bounds{1.0, 360.0},
+          "field of view, horizontal");
     field("fov_vertical_deg", fov_vertical_deg, Bounds{1.0, 180.0}, "field of view, vertical");
     field("rows", rows, Bounds{1, 4096}, "rays in a column");
     field("columns", columns, Bounds{1, 8192}, "rays in a row");
@@ -46,7 +47,8 @@ struct SensorModel {
     field("mount_yaw_deg", mount_yaw_deg, Bounds{-180.0, 180.0}, "turn about base z");
     field("mount_pitch_deg", mount_pitch_deg, Bounds{-90.0, 90.0}, "then about y; + looks down");
     field("gain_range_m", gain_range_m, Bounds{1.0, 200.0}, "range of the rays of a gain");
-    field("gain_resolution_deg", gain_resolution_deg, Bounds{0.5, 45.0}, "angle between the rays of a gain");
+    field("gain_resolution_deg", gain_resolution_deg, Bounds{0.5, 45.0},
+          "angle between the rays of a gain");
   }
   [[nodiscard]] std::vector<std::string> problems() const;
 };

@@ -29,22 +29,23 @@ struct PlanRow {
   bool explore = true;
   planners::PlanResult result;  ///< Path left out.
   double length_m = 0.0;
-  double wall_ms = 0.0;         ///< Plan and way home together.
-  std::string verdict;          ///< "accepted" or the mission's reason.
+  double wall_ms = 0.0;  ///< Plan and way home together.
+  std::string verdict;   ///< "accepted" or the mission's reason.
 };
 
 /// What a whole mission brought.
 struct RunRecord {
-  std::string outcome;          ///< Why it ended.
+  std::string outcome;  ///< Why it ended.
   bool returned_home = false;
-  bool ended_as_it_may = false; ///< Home with endurance left and without a collision being its end.
+  bool ended_as_it_may =
+      false;  ///< Home with endurance left and without a collision being its end.
   double mission_time_s = 0.0;
   double wall_time_s = 0.0;
   double explored_volume_m3 = 0.0;
   double path_length_m = 0.0;
   int collisions = 0;
   double collision_s = 0.0;
-  double min_clearance_m = 0.0; ///< Of the robot's body to the mesh.
+  double min_clearance_m = 0.0;  ///< Of the robot's body to the mesh.
   double remaining_at_home_s = 0.0;
   std::vector<TimelineRow> timeline;
   std::vector<PlanRow> plans;
@@ -67,10 +68,10 @@ struct RunSetup {
   map::MapParams map;
   mission::MissionParams mission;
   Pose start;
-  AxisAlignedBox bounds;             ///< Of exploration.
+  AxisAlignedBox bounds;  ///< Of exploration.
   std::vector<NoGoZone> zones;
   std::uint64_t seed = 1;
-  double time_limit_s = 900.0;       ///< Endurance by time; the battery may say less.
+  double time_limit_s = 900.0;  ///< Endurance by time; the battery may say less.
 };
 
 /// A whole mission in lockstep: simulator, mission and planner advance by tenths of a second of

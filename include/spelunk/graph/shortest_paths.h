@@ -10,9 +10,7 @@ namespace spelunk::graph {
 class ShortestPaths {
  public:
   ShortestPaths(VertexId source, std::vector<double> distances, std::vector<VertexId> predecessors)
-      : source_(source),
-        distances_(std::move(distances)),
-        predecessors_(std::move(predecessors)) {}
+      : source_(source), distances_(std::move(distances)), predecessors_(std::move(predecessors)) {}
 
   [[nodiscard]] VertexId source() const { return source_; }
   [[nodiscard]] bool reaches(VertexId id) const;

@@ -31,14 +31,16 @@ struct MapParams {
   template <class Visitor>
   void visit(Visitor&& field) {
     field("resolution_m", resolution_m, Bounds{0.02, 2.0}, "edge of a voxel", Audience::kUser);
-    field("range_max_m", range_max_m, Bounds{1.0, 300.0}, "longer returns only free their ray up to here", Audience::kUser);
+    field("range_max_m", range_max_m, Bounds{1.0, 300.0},
+          "longer returns only free their ray up to here", Audience::kUser);
     field("range_min_m", range_min_m, Bounds{0.0, 10.0}, "nearer returns are dropped");
     field("hit_probability", hit_probability, Bounds{0.5, 1.0}, "occupancy a hit votes for");
     field("miss_probability", miss_probability, Bounds{0.0, 0.5}, "occupancy a miss votes for");
     field("clamp_min_probability", clamp_min_probability, Bounds{0.0, 0.5}, "surest free");
     field("clamp_max_probability", clamp_max_probability, Bounds{0.5, 1.0}, "surest occupied");
     field("occupied_probability", occupied_probability, Bounds{0.0, 1.0}, "above: occupied");
-    field("discretize", discretize, Bounds{}, "one ray a hit voxel, as OctoMap's option of that name");
+    field("discretize", discretize, Bounds{},
+          "one ray a hit voxel, as OctoMap's option of that name");
   }
 };
 
@@ -52,7 +54,7 @@ struct MapUpdate {
   int voxels_updated = 0;
   int voxels_changed_status = 0;
   std::vector<VoxelIndex> newly_occupied;  ///< Voxels that became occupied, in a fixed order.
-  AxisAlignedBox changed;                  ///< Around all voxels whose status changed; may be empty.
+  AxisAlignedBox changed;  ///< Around all voxels whose status changed; may be empty.
 };
 
 /// Probabilistic occupancy map with the semantics of OctoMap (Hornung et al. 2013): hit and miss
@@ -86,8 +88,8 @@ class OccupancyMap {
   /// The same map as an OcTree, brought up to date by the blocks that changed since the last call.
   [[nodiscard]] const octomap::OcTree& octree();
 
-  /// Writes .bt (maximum likelihood) or .ot (full) by the ending, through a temporary file so that a
-  /// full disk leaves the old file whole. Throws OutsideError with path and reason.
+  /// Writes .bt (maximum likelihood) or .ot (full) by the ending, through a temporary file so that
+  /// a full disk leaves the old file whole. Throws OutsideError with path and reason.
   void save(const std::string& path);
 
   /// Replaces the content by a .bt or .ot file. Throws OutsideError if it is missing, not an

@@ -23,9 +23,9 @@ class InputGuard {
                                                       const RobotState& state) const;
 
   double speed_max_mps_;
-  std::optional<RobotState> latest_;   ///< The newest good report.
-  std::optional<RobotState> doubtful_; ///< The newest report that contradicts it.
-  int agreeing_ = 0;                   ///< Reports in a row that agree with the doubtful one.
+  std::optional<RobotState> latest_;    ///< The newest good report.
+  std::optional<RobotState> doubtful_;  ///< The newest report that contradicts it.
+  int agreeing_ = 0;                    ///< Reports in a row that agree with the doubtful one.
 };
 
 }  // namespace spelunk::mission

@@ -20,24 +20,29 @@ enum class MissionState { kIdle, kExplore, kReposition, kHome, kHold, kDone, kES
 struct MissionParams {
   double reserve_s = 20.0;
   double reserve_percent = 3.0;
-  double pessimism = 1.15;            ///< Travel times are taken this much longer.
-  double plan_ahead_s = 1.5;          ///< A new path takes over this long after it was asked for.
+  double pessimism = 1.15;    ///< Travel times are taken this much longer.
+  double plan_ahead_s = 1.5;  ///< A new path takes over this long after it was asked for.
   double deviation_max_m = 0.8;
   double home_radius_m = 1.0;
-  double replan_period_s = 2.0;       ///< Local paths are renewed this often while they are flown.
-  double start_clearance_m = 1.0;     ///< Unknown space so near around the start counts as free.
+  double replan_period_s = 2.0;    ///< Local paths are renewed this often while they are flown.
+  double start_clearance_m = 1.0;  ///< Unknown space so near around the start counts as free.
   int max_samples = 10000;
 
   template <class Visitor>
   void visit(Visitor&& field) {
-    field("reserve_s", reserve_s, Bounds{0.0, 1e5}, "endurance that must be left at home", Audience::kUser);
-    field("reserve_percent", reserve_percent, Bounds{0.0, 90.0}, "the same, of the full endurance", Audience::kUser);
-    field("pessimism", pessimism, Bounds{1.0, 5.0}, "factor on every travel time home", Audience::kUser);
+    field("reserve_s", reserve_s, Bounds{0.0, 1e5}, "endurance that must be left at home",
+          Audience::kUser);
+    field("reserve_percent", reserve_percent, Bounds{0.0, 90.0}, "the same, of the full endurance",
+          Audience::kUser);
+    field("pessimism", pessimism, Bounds{1.0, 5.0}, "factor on every travel time home");
     field("plan_ahead_s", plan_ahead_s, Bounds{0.0, 30.0}, "the next path starts this far ahead");
-    field("deviation_max_m", deviation_max_m, Bounds{0.05, 10.0}, "farther from the path: hold and replan");
+    field("deviation_max_m", deviation_max_m, Bounds{0.05, 10.0},
+          "farther from the path: hold and replan");
     field("home_radius_m", home_radius_m, Bounds{0.1, 10.0}, "nearer counts as home");
-    field("replan_period_s", replan_period_s, Bounds{0.2, 1000.0}, "a local path is renewed so often");
-    field("start_clearance_m", start_clearance_m, Bounds{0.0, 5.0}, "unknown space around the start taken as free");
+    field("replan_period_s", replan_period_s, Bounds{0.2, 1000.0},
+          "a local path is renewed so often");
+    field("start_clearance_m", start_clearance_m, Bounds{0.0, 5.0},
+          "unknown space around the start taken as free");
     field("max_samples", max_samples, Bounds{10, 10000000}, "samples tried by one plan");
   }
 };
@@ -58,11 +63,12 @@ struct Command {
 /// A plan to be computed, on data that nobody changes: run it in any thread, or at once.
 struct PlanJob {
   planners::PlanRequest request;
-  bool explore = true;    ///< false: only the way home is asked for.
+  bool explore = true;  ///< false: only the way home is asked for.
   std::uint64_t number = 0;
 };
 
-/// What a job brought: the plan, and the way home from its end (or from the start if there is none).
+/// What a job brought: the plan, and the way home from its end (or from the start if there is
+/// none).
 struct PlanOutcome {
   std::uint64_t number = 0;
   planners::PlanResult plan;
@@ -75,13 +81,13 @@ struct PlanOutcome {
 struct MissionStatus {
   double time_s = 0.0;
   MissionState state = MissionState::kIdle;
-  std::string reason;             ///< Of the newest change or refusal, one sentence.
+  std::string reason;  ///< Of the newest change or refusal, one sentence.
   std::string last_plan_status;
-  std::string end_reason;         ///< Why the mission ended; empty before.
+  std::string end_reason;  ///< Why the mission ended; empty before.
   double known_volume_m3 = 0.0;
   double remaining_s = 0.0;
-  double way_home_s = 0.0;        ///< Pessimistic.
-  double margin_s = 0.0;          ///< remaining - reserve - way home.
+  double way_home_s = 0.0;  ///< Pessimistic.
+  double margin_s = 0.0;    ///< remaining - reserve - way home.
   double distance_m = 0.0;
   int plans = 0;
   int replans_obstacle = 0;
@@ -107,8 +113,8 @@ class Mission {
 
   // --- What the robot reports. Odd input is refused with a throttled message, never thrown.
   void onOdometry(const RobotState& state);
-  map::MapUpdate onScan(const Scan& scan);   ///< Into the map; re-checks path and way home.
-  void onRemaining(double remaining_s);      ///< From the battery; else the time budget counts.
+  map::MapUpdate onScan(const Scan& scan);  ///< Into the map; re-checks path and way home.
+  void onRemaining(double remaining_s);     ///< From the battery; else the time budget counts.
 
   // --- What people ask for.
   Answer start();
@@ -136,7 +142,7 @@ class Mission {
   // --- What there is to see.
   [[nodiscard]] MissionStatus status() const;
   [[nodiscard]] const Path& activePath() const;
-  [[nodiscard]] const Path& wayHome() const;   ///< From about here; the best that is known.
+  [[nodiscard]] const Path& wayHome() const;  ///< From about here; the best that is known.
   [[nodiscard]] Path trail() const;
   [[nodiscard]] const AxisAlignedBox& bounds() const;
   [[nodiscard]] const std::vector<NoGoZone>& zones() const;

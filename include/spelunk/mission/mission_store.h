@@ -18,8 +18,8 @@ struct MissionRecord {
   planners::PlannerGraph graph;
 };
 
-/// Writes `folder`/mission.json through a temporary file; makes the folder. Throws OutsideError with
-/// path and reason.
+/// Writes `folder`/mission.json through a temporary file; makes the folder. Throws OutsideError
+/// with path and reason.
 void writeRecord(const std::string& folder, const MissionRecord& record);
 
 /// Reads what writeRecord() wrote. Throws OutsideError if it is missing or not such a file.

@@ -16,10 +16,10 @@ namespace spelunk::mission {
 
 /// Which configuration a run asks for.
 struct RunChoice {
-  std::string share_dir;                 ///< See shareDir().
-  std::string robot = "aerial";          ///< config/robots/<robot>.yaml
-  std::string planner = "gbplanner";     ///< config/planners/<planner>.yaml
-  std::vector<std::string> assignments;  ///< "name=value", from the command line; they win.
+  std::string share_dir;                     ///< See shareDir().
+  std::string robot = "aerial";              ///< config/robots/<robot>.yaml
+  std::string planner = "gbplanner";         ///< config/planners/<planner>.yaml
+  std::vector<std::string> assignments;      ///< "name=value", from the command line; they win.
   std::string assignments_origin = "--set";  ///< Named in messages about them.
 };
 

@@ -17,7 +17,8 @@ class SweptIndex {
   /// `box`: full extents, metres. `resolution_m`: edge of the voxels that will be asked about.
   SweptIndex(const Eigen::Vector3d& box, double resolution_m);
 
-  /// Adds the box moved straight from `a` to `b` under `id` (any number, several sweeps may share it).
+  /// Adds the box moved straight from `a` to `b` under `id` (any number, several sweeps may share
+  /// it).
   void add(const Eigen::Vector3d& a, const Eigen::Vector3d& b, std::uint32_t id);
 
   struct Hit {
@@ -41,7 +42,8 @@ class SweptIndex {
   Eigen::Vector3d half_;  ///< Half extents of the box.
   double resolution_m_;
   std::vector<Sweep> sweeps_;
-  std::unordered_map<std::uint64_t, std::vector<std::uint32_t>> cells_;  ///< Looked up, never walked.
+  std::unordered_map<std::uint64_t, std::vector<std::uint32_t>>
+      cells_;  ///< Looked up, never walked.
 };
 
 /// Tells whether voxels that became occupied lie in the sweep of a path, and where. Built once a

@@ -20,8 +20,9 @@ enum class PathFault { kNone, kOccupied, kUnknown, kOutOfBounds, kNoGo };
 /// The first fault along a path.
 struct PathCheck {
   PathFault fault = PathFault::kNone;
-  double arc_m = 0.0;  ///< Arc length up to which the path is known to be good; its length if all is.
-  std::string zone;    ///< Name of the no-go zone for kNoGo.
+  double arc_m =
+      0.0;           ///< Arc length up to which the path is known to be good; its length if all is.
+  std::string zone;  ///< Name of the no-go zone for kNoGo.
 
   [[nodiscard]] bool isFree() const { return fault == PathFault::kNone; }
 };

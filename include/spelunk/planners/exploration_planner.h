@@ -17,12 +17,12 @@ namespace spelunk::planners {
 
 /// Every expected outcome of a plan.
 enum class PlanStatus {
-  kOk,             ///< A path was found.
-  kNothingToGain,  ///< Explored: nothing reachable above the gain threshold is left.
-  kBudgetSaysHome, ///< Something is left, but no target fits the remaining endurance.
-  kStartBlocked,   ///< The robot's box at the start is not in known free space.
-  kOutOfBounds,    ///< The start lies outside the bounds or inside a no-go zone.
-  kNoPath          ///< A target exists but no collision-free path to it was found.
+  kOk,              ///< A path was found.
+  kNothingToGain,   ///< Explored: nothing reachable above the gain threshold is left.
+  kBudgetSaysHome,  ///< Something is left, but no target fits the remaining endurance.
+  kStartBlocked,    ///< The robot's box at the start is not in known free space.
+  kOutOfBounds,     ///< The start lies outside the bounds or inside a no-go zone.
+  kNoPath           ///< A target exists but no collision-free path to it was found.
 };
 
 enum class PathKind { kLocal, kReposition, kHome };
@@ -32,13 +32,13 @@ enum class PathKind { kLocal, kReposition, kHome };
 
 /// What became of the path of an earlier plan; told to the planner with the next request.
 enum class PathOutcome {
-  kNone,             ///< There was no earlier path.
-  kReached,          ///< Flown to its end.
-  kReplaced,         ///< A newer plan took over before its end, as intended.
-  kBlocked,          ///< A new obstacle (or zone) cut it.
-  kDeviated,         ///< The robot left it.
-  kRejectedUnsafe,   ///< mission's own check refused it.
-  kRejectedBudget    ///< No way home from its end would have fitted the endurance.
+  kNone,            ///< There was no earlier path.
+  kReached,         ///< Flown to its end.
+  kReplaced,        ///< A newer plan took over before its end, as intended.
+  kBlocked,         ///< A new obstacle (or zone) cut it.
+  kDeviated,        ///< The robot left it.
+  kRejectedUnsafe,  ///< mission's own check refused it.
+  kRejectedBudget   ///< No way home from its end would have fitted the endurance.
 };
 
 struct StampedPose {
@@ -55,18 +55,18 @@ struct PlanBudget {
 /// All a planner may know for one plan. Nothing in it is kept beyond the call, `map` apart.
 struct PlanRequest {
   std::shared_ptr<const map::FrozenMap> map;
-  double time_s = 0.0;           ///< Mission time.
-  Pose pose;                     ///< Where the path is to start (may lie ahead of the robot).
+  double time_s = 0.0;  ///< Mission time.
+  Pose pose;            ///< Where the path is to start (may lie ahead of the robot).
   Eigen::Vector3d velocity = Eigen::Vector3d::Zero();  ///< Expected there, world frame.
   Pose home;
-  double remaining_s = 1e9;      ///< Endurance left at `pose`, the reserve already taken off.
-  AxisAlignedBox bounds;         ///< Global bounds of exploration.
+  double remaining_s = 1e9;  ///< Endurance left at `pose`, the reserve already taken off.
+  AxisAlignedBox bounds;     ///< Global bounds of exploration.
   std::vector<NoGoZone> zones;
   std::vector<StampedPose> trail;  ///< Where the robot was, oldest first, about 1 m or 1 s apart.
   PathOutcome last_outcome = PathOutcome::kNone;  ///< Of the newest path this planner proposed.
   std::string last_reason;
   PlanBudget budget;
-  Rng rng{0};                    ///< This plan's own stream.
+  Rng rng{0};  ///< This plan's own stream.
 };
 
 /// Counters and timings that explain a result.
@@ -83,7 +83,7 @@ struct PlanStats {
   int global_vertices = 0;
   int global_edges = 0;
   int frontiers = 0;
-  double best_gain = 0.0;       ///< In the planner's own unit (see its header).
+  double best_gain = 0.0;  ///< In the planner's own unit (see its header).
   double gain_threshold = 0.0;
   double window_ms = 0.0;
   double graph_ms = 0.0;
@@ -103,8 +103,8 @@ struct RemainingTarget {
 struct PlanResult {
   PlanStatus status = PlanStatus::kNoPath;
   PathKind kind = PathKind::kLocal;
-  Path path;            ///< Starts at the requested pose; empty unless status is kOk.
-  std::string reason;   ///< One sentence for people: why this path, or why none.
+  Path path;           ///< Starts at the requested pose; empty unless status is kOk.
+  std::string reason;  ///< One sentence for people: why this path, or why none.
   PlanStats stats;
   std::vector<RemainingTarget> remaining;
 };

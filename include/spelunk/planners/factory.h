@@ -13,6 +13,10 @@ namespace spelunk::planners {
 /// Names that makePlanner() knows.
 [[nodiscard]] std::vector<std::string> plannerNames();
 
+/// The parameters of planner `name` as `tree` sets them, for tables. Throws as makePlanner() does.
+[[nodiscard]] std::vector<ParamDescription> describePlanner(const std::string& name,
+                                                            ParamTree& tree);
+
 /// The planner `name` for this robot, its parameters read from section `name` of `tree` (problems
 /// are added to the tree). Throws OutsideError that lists the known names if there is none such.
 [[nodiscard]] std::unique_ptr<ExplorationPlanner> makePlanner(const std::string& name,

@@ -28,8 +28,7 @@ struct CloudParams {
     field("tf_wait_s", tf_wait_s, Bounds{0.0, 10.0}, "a cloud waits this long for its transform");
     field("age_max_s", age_max_s, Bounds{0.1, 1000.0}, "older clouds are refused");
     field("future_max_s", future_max_s, Bounds{0.0, 100.0}, "clouds stamped later are refused");
-    field("outlier_filter", outlier_filter, Bounds{},
-          "against dust: none, statistical or radius");
+    field("outlier_filter", outlier_filter, Bounds{}, "against dust: none, statistical or radius");
     field("outlier_neighbours", outlier_neighbours, Bounds{1, 1000},
           "neighbours looked at (statistical) or wanted (radius)");
     field("outlier_stddevs", outlier_stddevs, Bounds{0.0, 20.0},

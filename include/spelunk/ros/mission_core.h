@@ -30,8 +30,8 @@ struct MissionCore {
   InputWatch watch;
   std::optional<RobotState> robot;  ///< The newest odometry that was good, mission time.
   planners::PathKind kind = planners::PathKind::kLocal;  ///< Of the active path.
-  bool wants_start = false;         ///< Start as soon as the mission accepts it.
-  std::uint64_t clock_jumps = 0;    ///< How often ROS time jumped back.
+  bool wants_start = false;       ///< Start as soon as the mission accepts it.
+  std::uint64_t clock_jumps = 0;  ///< How often ROS time jumped back.
 };
 
 using GuardedCore = Guarded<MissionCore>;

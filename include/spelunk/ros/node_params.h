@@ -34,7 +34,8 @@ struct PlannerNodeParams {
           Audience::kUser);
     field("share_dir", share_dir, Bounds{}, "where config/ and worlds/ lie; empty: the package");
     field("world_frame", world_frame, Bounds{}, "fixed frame of map and paths", Audience::kUser);
-    field("silence_s", silence_s, Bounds{0.2, 1000.0}, "warn if cloud or odometry stay away longer");
+    field("silence_s", silence_s, Bounds{0.2, 1000.0},
+          "warn if cloud or odometry stay away longer");
     field("tick_rate_hz", tick_rate_hz, Bounds{1.0, 100.0}, "of the mission");
     field("view_period_s", view_period_s, Bounds{0.05, 100.0}, "between map clouds and markers");
   }

@@ -2,8 +2,8 @@
 
 namespace spelunk::bridge {
 
-/// Keeps simulated time at a multiple of wall time. A backlog larger than kBacklog_s of wall time is
-/// dropped, so that a slow machine runs late instead of racing afterwards.
+/// Keeps simulated time at a multiple of wall time. A backlog larger than kBacklog_s of wall time
+/// is dropped, so that a slow machine runs late instead of racing afterwards.
 class Pacer {
  public:
   static constexpr double kBacklog_s = 0.1;

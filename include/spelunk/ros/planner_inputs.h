@@ -49,7 +49,8 @@ class PlannerInputs {
   double endurance_s_;
   PendingClouds pending_;
   std::uint64_t jumps_seen_ = 0;
-  bool tf_was_there_ = false;  ///< Clouds older than the first transform are dropped without a word.
+  bool tf_was_there_ =
+      false;  ///< Clouds older than the first transform are dropped without a word.
   InputWatch::Wanted cloud_input_{};
   InputWatch::Wanted odometry_input_{};
 

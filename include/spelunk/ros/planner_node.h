@@ -12,19 +12,19 @@
 
 #include "spelunk/ros/mission_core.h"
 #include "spelunk/ros/node_params.h"
+#include "spelunk/ros/node_setup.h"
 #include "spelunk/ros/plan_worker.h"
 #include "spelunk/ros/planner_inputs.h"
 #include "spelunk/ros/planner_outputs.h"
 #include "spelunk/ros/planner_services.h"
-#include "spelunk/ros/node_setup.h"
 
 namespace spelunk::bridge {
 
 /// Explores with whatever robot or simulator sends clouds, odometry and tf. Converts, calls the
 /// mission and publishes; it decides nothing.
 ///
-/// Threads: sensors (PlannerInputs), services (PlannerServices), one planner worker (PlanWorker), one
-/// that publishes views, and the caller's, which runs the mission's tick.
+/// Threads: sensors (PlannerInputs), services (PlannerServices), one planner worker (PlanWorker),
+/// one that publishes views, and the caller's, which runs the mission's tick.
 class PlannerNode {
  public:
   /// Throws OutsideError with everything that is wrong with the parameters.

@@ -18,8 +18,8 @@ struct Colour {
 [[nodiscard]] Colour heatColour(double share);
 
 enum class Shape {
-  kPoints,     ///< Squares that face the viewer.
-  kCubes,      ///< Axis-aligned cubes.
+  kPoints,  ///< Squares that face the viewer.
+  kCubes,   ///< Axis-aligned cubes.
   kSpheres,
   kBox,        ///< One box: points[0] its centre, `extents_m` its size, `yaw` its heading.
   kLineStrip,  ///< One line through all points.

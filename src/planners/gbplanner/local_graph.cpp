@@ -1,6 +1,7 @@
 #include "spelunk/planners/gbplanner/local_graph.h"
 
 #include <algorithm>
+#include <optional>
 
 #include "spelunk/common/stopwatch.h"
 
@@ -36,6 +37,7 @@ struct Expansion {
   const FreeSpace& roomy;
   const GbPlannerParams& params;
   PlanStats& stats;
+  bool shortens_steps = false;  ///< Blocked steps are tried again at a part of their length.
 
   [[nodiscard]] bool isFull() const {
     return local.graph.vertexCount() >= static_cast<std::size_t>(params.max_vertices) ||
@@ -52,12 +54,31 @@ struct Expansion {
     const Rejection at_point = space.at(point);
     if (at_point != Rejection::kNone) return count(at_point, stats);
     if (!space.isFree(from, point)) {
-      ++stats.rejected_unconnected;
-      return;
+      const auto nearer = shortened(from, point);
+      if (!nearer) {
+        ++stats.rejected_unconnected;
+        return;
+      }
+      point = *nearer;
     }
     const VertexId added = local.graph.addVertex(point);
     local.graph.addEdge(nearest, added, weightOf(from, point));
     connect(added);
+  }
+
+  /// The end of the longest free half, quarter, ... of a step, apart from what the graph has.
+  [[nodiscard]] std::optional<Eigen::Vector3d> shortened(const Eigen::Vector3d& from,
+                                                         const Eigen::Vector3d& to) const {
+    constexpr double kShortestStep_m = 0.3;
+    if (!shortens_steps) return std::nullopt;
+    for (Eigen::Vector3d step = 0.5 * (to - from); step.norm() >= kShortestStep_m; step *= 0.5) {
+      const Eigen::Vector3d point = from + step;
+      if (!space.isFree(from, point)) continue;
+      const Eigen::Vector3d nearest = local.graph.position(*local.graph.findNearest(point));
+      if ((point - nearest).norm() < kShortestStep_m) return std::nullopt;
+      return point;
+    }
+    return std::nullopt;
   }
 
   [[nodiscard]] double weightOf(const Eigen::Vector3d& a, const Eigen::Vector3d& b) const {
@@ -79,8 +100,9 @@ struct Expansion {
 }  // namespace
 
 LocalGraph buildLocalGraph(const Eigen::Vector3d& root, const FreeSampler& sampler,
-                           const FreeSpace& space, const FreeSpace& roomy, const GbPlannerParams& params,
-                           const PlanBudget& budget, Rng rng, PlanStats& stats) {
+                           const FreeSpace& space, const FreeSpace& roomy,
+                           const GbPlannerParams& params, const PlanBudget& budget, Rng rng,
+                           PlanStats& stats) {
   const Stopwatch watch;
   LocalGraph local;
   local.root = local.graph.addVertex(root);
@@ -91,6 +113,10 @@ LocalGraph buildLocalGraph(const Eigen::Vector3d& root, const FreeSampler& sampl
         watch.milliseconds() > budget.seconds * 1e3) {
       break;
     }
+    // A graph that is not full by now grows in a tight place, where long straight steps fail.
+    constexpr int kTightAfterShare = 5;
+    expansion.shortens_steps =
+        stats.samples > samples_max - budget.iterations + budget.iterations / kTightAfterShare;
     ++stats.samples;
     const auto sample = sampler.draw(rng);
     if (!sample) break;

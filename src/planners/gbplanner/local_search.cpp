@@ -26,8 +26,9 @@ struct Search {
 
   void buildGraph(const Eigen::Vector3d& root) {
     const Stopwatch watch;
-    plan.local =
-        buildLocalGraph(root, FreeSampler(view.window(), view.localBox()), view.localSpace(), view.roomySpace(), params, request.budget, request.rng.fork("gbplanner/local_graph"), stats);
+    plan.local = buildLocalGraph(root, FreeSampler(view.window(), view.localBox()),
+                                 view.localSpace(), view.roomySpace(), params, request.budget,
+                                 request.rng.fork("gbplanner/local_graph"), stats);
     stats.graph_ms = watch.milliseconds();
   }
 

@@ -51,8 +51,7 @@ PlanView::PlanView(const PlanRequest& request, const RobotModel& robot,
       local_box_(
           intersection(boxAround(request.pose.position, params.local_box_m), request.bounds)),
       window_(*request.map, knownPart(grown(local_box_, robot.box_m + params.safety_margin_m),
-                                      *request.map, request.pose.position,
-                                      oneVoxel(*request.map))),
+                                      *request.map, request.pose.position, oneVoxel(*request.map))),
       inflated_(window_, robot.box_m),
       inflated_roomy_(window_, robot.box_m + 2.0 * params.safety_margin_m),
       checker_(std::make_unique<navigation::SegmentChecker>(request.map, robot.box_m)),
@@ -68,8 +67,8 @@ PlanView::PlanView(const PlanRequest& request, const RobotModel& robot,
 
 void PlanView::prepareGains() {
   const AxisAlignedBox region =
-      knownPart(grown(local_box_, gainMargin(evaluator_)), *request_.map,
-                request_.pose.position, rayMargin(evaluator_, *request_.map));
+      knownPart(grown(local_box_, gainMargin(evaluator_)), *request_.map, request_.pose.position,
+                rayMargin(evaluator_, *request_.map));
   credible_ = credibleWindow(map::LocalWindow(*request_.map, region), credibilityOf(params_));
 }
 

@@ -43,36 +43,61 @@ struct GbPlannerParams {
 
   template <class Visitor>
   void visit(Visitor&& field) {
-    field("local_box_m", local_box_m, Bounds{2.0, 200.0}, "full extents of the sliding local box [D_L]", Audience::kUser);
-    field("max_vertices", max_vertices, Bounds{2, 100000}, "vertices of a local graph [N_V,max]", Audience::kUser);
+    field("local_box_m", local_box_m, Bounds{2.0, 200.0},
+          "full extents of the sliding local box [D_L]", Audience::kUser);
+    field("max_vertices", max_vertices, Bounds{2, 100000}, "vertices of a local graph [N_V,max]");
     field("max_edges", max_edges, Bounds{1, 1000000}, "edges of a local graph [N_E,max]");
-    field("edge_length_min_m", edge_length_min_m, Bounds{0.0, 5.0}, "samples nearer to a vertex are not worth one");
-    field("edge_length_max_m", edge_length_max_m, Bounds{0.2, 50.0}, "a farther sample is pulled to this distance", Audience::kUser);
-    field("connection_radius_m", connection_radius_m, Bounds{0.2, 50.0}, "a new vertex is joined to those within it [delta]");
-    field("connections_max", connections_max, Bounds{1, 1000}, "nearest vertices tried within that radius");
-    field("gain_threshold_m3", gain_threshold_m3, Bounds{0.0, 1e6}, "a path whose exploration gain is lower is not worth flying [g_e]", Audience::kUser);
-    field("similarity_weight", similarity_weight, Bounds{0.0, 10.0}, "how much leaving the exploring direction costs [gamma_S]", Audience::kUser);
-    field("distance_weight", distance_weight, Bounds{0.0, 10.0}, "how much distance along a path costs [gamma_D]", Audience::kUser);
-    field("direction_window_s", direction_window_s, Bounds{0.5, 120.0}, "the exploring direction is averaged over it");
-    field("commitment", commitment, Bounds{1.0, 10.0}, "a path to the previous target counts this many times");
-    field("local_length_max_m", local_length_max_m, Bounds{1.0, 500.0}, "longer local paths are cut");
-    field("path_spacing_m", path_spacing_m, Bounds{0.1, 10.0}, "spacing of points compared by time warping");
-    field("count_once", count_once, Bounds{}, "count the gain of a path at its best vertex instead of the sum over all");
-    field("closing_height_m", closing_height_m, Bounds{0.0, 10.0}, "gaps between sensor rows this high hold nothing to explore");
-    field("growth_m", growth_m, Bounds{0.0, 5.0}, "obstacles are this much thicker for the rays of a gain");
-    field("gain_floor_m3", gain_floor_m3, Bounds{0.0, 1e6}, "a smaller volumetric gain counts as none: it is noise");
-    field("safety_margin_m", safety_margin_m, Bounds{0.0, 2.0}, "room wanted on each side", Audience::kUser);
-    field("tightness_cost", tightness_cost, Bounds{1.0, 100.0}, "ways without that room count as this many times longer");
-    field("frontier_gain_m3", frontier_gain_m3, Bounds{0.0, 1e6}, "volumetric gain that makes a leaf a frontier", Audience::kUser);
-    field("frontier_spacing_m", frontier_spacing_m, Bounds{0.1, 50.0}, "frontiers nearer to each other are one");
-    field("cluster_distance_m", cluster_distance_m, Bounds{0.1, 50.0}, "mean distance of paths that are one branch");
-    field("global_distance_weight", global_distance_weight, Bounds{0.0, 10.0}, "how much distance to a frontier costs [epsilon_D]", Audience::kUser);
-    field("global_radius_m", global_radius_m, Bounds{0.5, 50.0}, "new global vertices are joined to those within it");
+    field("edge_length_min_m", edge_length_min_m, Bounds{0.0, 5.0},
+          "samples nearer to a vertex are not worth one");
+    field("edge_length_max_m", edge_length_max_m, Bounds{0.2, 50.0},
+          "a farther sample is pulled to this distance");
+    field("connection_radius_m", connection_radius_m, Bounds{0.2, 50.0},
+          "a new vertex is joined to those within it [delta]");
+    field("connections_max", connections_max, Bounds{1, 1000},
+          "nearest vertices tried within that radius");
+    field("gain_threshold_m3", gain_threshold_m3, Bounds{0.0, 1e6},
+          "a path whose exploration gain is lower is not worth flying [g_e]", Audience::kUser);
+    field("similarity_weight", similarity_weight, Bounds{0.0, 10.0},
+          "how much leaving the exploring direction costs [gamma_S]");
+    field("distance_weight", distance_weight, Bounds{0.0, 10.0},
+          "how much distance along a path costs [gamma_D]");
+    field("direction_window_s", direction_window_s, Bounds{0.5, 120.0},
+          "the exploring direction is averaged over it");
+    field("commitment", commitment, Bounds{1.0, 10.0},
+          "a path to the previous target counts this many times");
+    field("local_length_max_m", local_length_max_m, Bounds{1.0, 500.0},
+          "longer local paths are cut");
+    field("path_spacing_m", path_spacing_m, Bounds{0.1, 10.0},
+          "spacing of points compared by time warping");
+    field("count_once", count_once, Bounds{},
+          "count the gain of a path at its best vertex instead of the sum over all");
+    field("closing_height_m", closing_height_m, Bounds{0.0, 10.0},
+          "gaps between sensor rows this high hold nothing to explore");
+    field("growth_m", growth_m, Bounds{0.0, 5.0},
+          "obstacles are this much thicker for the rays of a gain");
+    field("gain_floor_m3", gain_floor_m3, Bounds{0.0, 1e6},
+          "a smaller volumetric gain counts as none: it is noise");
+    field("safety_margin_m", safety_margin_m, Bounds{0.0, 2.0}, "room wanted on each side");
+    field("tightness_cost", tightness_cost, Bounds{1.0, 100.0},
+          "ways without that room count as this many times longer");
+    field("frontier_gain_m3", frontier_gain_m3, Bounds{0.0, 1e6},
+          "volumetric gain that makes a leaf a frontier", Audience::kUser);
+    field("frontier_spacing_m", frontier_spacing_m, Bounds{0.1, 50.0},
+          "frontiers nearer to each other are one");
+    field("cluster_distance_m", cluster_distance_m, Bounds{0.1, 50.0},
+          "mean distance of paths that are one branch");
+    field("global_distance_weight", global_distance_weight, Bounds{0.0, 10.0},
+          "how much distance to a frontier costs [epsilon_D]", Audience::kUser);
+    field("global_radius_m", global_radius_m, Bounds{0.5, 50.0},
+          "new global vertices are joined to those within it");
     field("eta_factor", eta_factor, Bounds{1.0, 5.0}, "travel time is length / speed times this");
-    field("tried_radius_m", tried_radius_m, Bounds{0.1, 50.0}, "targets this near to a failed one are the same");
-    field("shortcut_length_max_m", shortcut_length_max_m, Bounds{0.5, 200.0}, "longest straight shortcut of a path");
+    field("tried_radius_m", tried_radius_m, Bounds{0.1, 50.0},
+          "targets this near to a failed one are the same");
+    field("shortcut_length_max_m", shortcut_length_max_m, Bounds{0.5, 200.0},
+          "longest straight shortcut of a path");
     field("prune_length_m", prune_length_m, Bounds{0.0, 5.0}, "shorter edges are pruned");
-    field("inflation_radius_m", inflation_radius_m, Bounds{0.2, 20.0}, "obstacles this near shape the room around an edge");
+    field("inflation_radius_m", inflation_radius_m, Bounds{0.2, 20.0},
+          "obstacles this near shape the room around an edge");
   }
 
   /// Rules between fields, for the tree's problem list.

@@ -22,9 +22,11 @@ struct LocalGraph {
 /// reason into `stats`. Differs from the paper: a sample farther than edge_length_max_m from its
 /// nearest vertex is pulled to that distance, since straight lines across a whole box are seldom
 /// free in galleries; one nearer than edge_length_min_m is dropped, since it would see what its
-/// neighbour sees.
+/// neighbour sees; and a graph that has not filled up after a fifth of its samples stands in a
+/// tight place, where blocked steps are tried again at a half, a quarter, ... of their length.
 [[nodiscard]] LocalGraph buildLocalGraph(const Eigen::Vector3d& root, const FreeSampler& sampler,
-                                         const FreeSpace& space, const FreeSpace& roomy, const GbPlannerParams& params,
-                                         const PlanBudget& budget, Rng rng, PlanStats& stats);
+                                         const FreeSpace& space, const FreeSpace& roomy,
+                                         const GbPlannerParams& params, const PlanBudget& budget,
+                                         Rng rng, PlanStats& stats);
 
 }  // namespace spelunk::planners::gbplanner
