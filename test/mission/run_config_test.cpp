@@ -20,7 +20,7 @@ TEST(RunConfig, ReadsShippedFiles) {
   const RunConfig config = loadRunConfig(shipped());
   EXPECT_EQ(config.robot.speed_max_mps, 2.0);
   EXPECT_FALSE(config.robot.sensor_models.empty());
-  EXPECT_EQ(config.map.resolution_m, 0.2);
+  EXPECT_EQ(config.map.resolution_m, 0.15);
   EXPECT_GT(config.mission.reserve_s, 0.0);
 }
 
