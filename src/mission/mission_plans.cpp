@@ -200,7 +200,7 @@ void Mission::Impl::onNoPlan(const RunningJob& job, const planners::PlanResult& 
     if (active) next_ask_s = std::min(next_ask_s, active->endTime() + 0.1);
     return;
   }
-  if (plan.status == planners::PlanStatus::kNothingToGain) return goHome(plan.reason);
+  if (plan.status == planners::PlanStatus::kNothingToGain) return goHome("explored: " + plan.reason);
   if (plan.status == planners::PlanStatus::kBudgetSaysHome)
     return goHome("home by endurance: " + plan.reason);
   onFailedPlan(std::string(planners::toText(plan.status)) + ": " + plan.reason);

@@ -106,7 +106,7 @@ TEST_P(EveryPlanner, ReportsNothingToGainInAFullyMappedRoom) {
   knowAllOf(test::corridorWorld(12.0));
   const PlanResult result = planner_->plan(request_);
   EXPECT_EQ(result.status, PlanStatus::kNothingToGain) << result.reason;
-  EXPECT_EQ(result.reason, "explored: nothing reachable above g_e is left");
+  EXPECT_EQ(result.reason, "nothing reachable above g_e is left");
 }
 
 TEST_P(EveryPlanner, ReportsABlockedStart) {

@@ -232,7 +232,7 @@ struct GbPlanner::Search {
       result.reason = "frontiers are left, but no free path leads to any of them";
     } else {
       result.status = PlanStatus::kNothingToGain;
-      result.reason = "explored: nothing reachable above g_e is left";
+      result.reason = "nothing reachable above g_e is left";
     }
   }
 
