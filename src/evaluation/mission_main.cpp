@@ -176,6 +176,7 @@ int fly(const Options& options, bool quiet) {
 int main(int argc, char** argv) {
   spelunk::pinMathLibrary(argc, argv);
   CLI::App app{"Flies one exploration mission in lockstep with the simulator, without ROS"};
+  app.option_defaults()->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
   Options options;
   bool list_params = false;
   bool quiet = false;
@@ -184,7 +185,7 @@ int main(int argc, char** argv) {
   app.add_option("--planner", options.planner, "exploration planner");
   app.add_option("--seed", options.seed, "seed of the whole run");
   app.add_option("--time-limit-s", options.time_limit_s, "the robot is home before this time")
-      ->check(CLI::PositiveNumber);
+      ->check(CLI::Range(1.0, 1e6));
   app.add_option("--out", options.out, "folder for the results");
   app.add_option("--start", options.start, "x,y,z,yaw; wins over the world's own");
   app.add_option("--set", options.assignments, "section.name=value, any parameter")->take_all();
