@@ -109,6 +109,14 @@ TEST_P(EveryPlanner, ReportsNothingToGainInAFullyMappedRoom) {
   EXPECT_EQ(result.reason, "nothing reachable above g_e is left");
 }
 
+TEST_P(EveryPlanner, DoesNotCallExploredWhatItCouldNotLeave) {
+  map_->markFree(boxAround(request_.pose.position, robot_.box_m));
+  request_.map = map_->freeze();
+  const PlanResult result = planner_->plan(request_);
+  EXPECT_EQ(result.status, PlanStatus::kNoPath) << result.reason;
+  EXPECT_NE(result.reason.find("hemmed in"), std::string::npos) << result.reason;
+}
+
 TEST_P(EveryPlanner, ReportsABlockedStart) {
   knowAllOf(test::corridorWorld(12.0));
   request_.pose.position = {0.3, 0.3, 0.3};
