@@ -123,36 +123,6 @@ LocalWindow::LocalWindow(const FrozenMap& map, const AxisAlignedBox& region)
   known_last_ = copier.known().max;
 }
 
-LocalWindow LocalWindow::withCells(std::vector<std::uint8_t> cells) const {
-  require(cells.size() == cells_.size(), "LocalWindow: cells of another size");
-  LocalWindow changed(resolution_m_, origin_, size_);
-  changed.packed_.resize(packed_.size());
-  for (std::size_t i = 0; i < cells.size(); i += 4) {
-    std::uint32_t four = 0;
-    std::memcpy(&four, cells.data() + i, std::min<std::size_t>(4, cells.size() - i));
-    changed.packed_[i / 4] =
-        static_cast<std::uint8_t>((four | four >> 6 | four >> 12 | four >> 18) & 0xFFU);
-  }
-  changed.cells_ = std::move(cells);
-  changed.boundKnownRows();
-  return changed;
-}
-
-void LocalWindow::boundKnownRows() {
-  VoxelIndex first(0, size_.y(), size_.z());
-  VoxelIndex last(-1, -1, -1);
-  const std::uint8_t* row = cells_.data();
-  for (int z = 0; z < size_.z(); ++z)
-    for (int y = 0; y < size_.y(); ++y, row += row_cells_) {
-      if (std::all_of(row, row + row_cells_, [](std::uint8_t cell) { return cell == 0; })) continue;
-      first = first.cwiseMin(VoxelIndex(0, y, z));
-      last = last.cwiseMax(VoxelIndex(0, y, z));
-    }
-  last.x() = size_.x() - 1;
-  known_first_ = origin_ + first;
-  known_last_ = origin_ + last;
-}
-
 VoxelIndex LocalWindow::indexOf(const Eigen::Vector3d& point) const {
   return voxelOf(point, 1.0 / resolution_m_);
 }

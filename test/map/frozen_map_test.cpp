@@ -143,21 +143,5 @@ TEST(LocalWindow, RefusesRegionsItCannotHold) {
   EXPECT_THROW(LocalWindow(*view, boxAround({0, 0, 0}, {1e300, 1, 1})), Precondition);
 }
 
-TEST(LocalWindow, AnswersFromItsNewCells) {
-  OccupancyMap map{MapParams{}};
-  map.markFree(boxAround({0.0, 0.0, 0.0}, {2.0, 2.0, 2.0}));
-  const LocalWindow window(*map.freeze(), boxAround({0.0, 0.0, 0.0}, {3.1, 2.7, 2.3}));
-  std::vector<std::uint8_t> cells = window.cells();
-  for (std::size_t i = 0; i < cells.size(); ++i) cells[i] = static_cast<std::uint8_t>(i % 3);
-  const LocalWindow changed = window.withCells(cells);
-  for (int z = 0; z < window.size().z(); ++z)
-    for (int y = 0; y < window.size().y(); ++y)
-      for (int x = 0; x < window.size().x(); ++x) {
-        const VoxelIndex local(x, y, z);
-        ASSERT_EQ(static_cast<std::size_t>(changed.at(VoxelIndex(window.origin() + local))),
-                  window.offsetOf(local) % 3);
-      }
-}
-
 }  // namespace
 }  // namespace spelunk::map

@@ -151,21 +151,6 @@ TEST(VolumetricGain, CameraSeesOnlyWhereItLooks) {
   EXPECT_EQ(rear.evaluate(window, position, M_PI, AxisAlignedBox{}).unknown_voxels, ahead);
 }
 
-TEST(VolumetricGain, CountsWhatAWindowsNewCellsHold) {
-  OccupancyMap map{MapParams{}};
-  map.markFree({{-2.0, -2.0, -1.0}, {2.0, 2.0, 1.0}});
-  const LocalWindow known(*map.freeze(), cube(6.0));
-  OccupancyMap empty{MapParams{}};
-  const LocalWindow unknown(*empty.freeze(), cube(6.0));
-  const GainEvaluator lidar({sensorOf(360, 30, 5)}, 0.2, GainCounting::kPerRay);
-  const auto gainIn = [&](const LocalWindow& window) {
-    return lidar.evaluate(window, {0.1, 0.1, 0.1}, 0.0, AxisAlignedBox{});
-  };
-  EXPECT_NE(gainIn(known).unknown_voxels, gainIn(unknown).unknown_voxels);
-  expectEqual(gainIn(unknown.withCells(known.cells())), gainIn(known));
-  expectEqual(gainIn(known.withCells(unknown.cells())), gainIn(unknown));
-}
-
 TEST(VolumetricGain, FullCircleDoesNotDependOnYaw) {
   const LocalWindow window(*hallMap(MapParams{}, 3, 900, 2).freeze(), cube(25.0));
   const GainEvaluator lidar({sensorOf(360, 30, 20)}, 0.2);

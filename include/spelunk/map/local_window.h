@@ -17,9 +17,6 @@ class LocalWindow {
   /// finite or larger than 2^31 voxels.
   LocalWindow(const FrozenMap& map, const AxisAlignedBox& region);
 
-  /// The same region with other contents, one byte a voxel as in cells().
-  [[nodiscard]] LocalWindow withCells(std::vector<std::uint8_t> cells) const;
-
   /// Outside the window: unknown.
   [[nodiscard]] Occupancy at(const VoxelIndex& index) const {
     // Unsigned, so that one comparison an axis covers both sides and nothing can overflow.
@@ -58,15 +55,6 @@ class LocalWindow {
   }
 
  private:
-  LocalWindow(double resolution_m, const VoxelIndex& origin, const VoxelIndex& size)
-      : resolution_m_(resolution_m),
-        origin_(origin),
-        size_(size),
-        row_cells_(static_cast<std::size_t>(size.x())),
-        plane_cells_(row_cells_ * static_cast<std::size_t>(size.y())) {}
-  /// Sets the known box around all rows that hold something known.
-  void boundKnownRows();
-
   double resolution_m_;
   VoxelIndex origin_;
   VoxelIndex size_;

@@ -44,6 +44,13 @@ Polyline toLine(const Path& path) {
   return line;
 }
 
+/// Around a place: what joining it to the global graph looks at.
+Eigen::Vector3d joiningBox(const GbPlannerParams& params) {
+  constexpr double kDetour = 1.5;  // the first step out of a blocked start may lead away
+  return Eigen::Vector3d::Constant(2.0 * kDetour * params.global_radius_m)
+      .cwiseMin(params.local_box_m);
+}
+
 double longestRange(const RobotModel& robot) {
   double range = 0.0;
   for (const SensorModel& sensor : robot.sensor_models) range = std::max(range, sensor.range_max_m);
@@ -64,10 +71,14 @@ struct GbPlanner::Search {
   LocalPlan local{};
   double way_home_m = 0.0;
 
-  Search(GbPlanner& owner, const PlanRequest& asked)
+  Search(GbPlanner& owner, const PlanRequest& asked, const Eigen::Vector3d& box_m)
       : planner(owner),
         request(asked),
-        view(asked, owner.robot_, owner.params_, owner.evaluator_) {}
+        view(asked, owner.robot_, owner.params_, owner.evaluator_, box_m) {}
+
+  [[nodiscard]] const map::FrozenMap& credible() const {
+    return *planner.credible_.of(request.map);
+  }
 
   void noteOutcome() {
     previous = std::exchange(planner.proposal_, std::nullopt);
@@ -155,7 +166,7 @@ struct GbPlanner::Search {
     const Stopwatch watch;
     const GlobalQuery query{current, request.remaining_s, planner.robot_.speed_max_mps,
                             [this](const Eigen::Vector3d& at) {
-                              return gainAnywhere(request, planner.params_, planner.evaluator_, at,
+                              return gainAnywhere(request, credible(), planner.evaluator_, at,
                                                   request.pose.yaw);
                             }};
     GlobalPlan plan = gbplanner::planGlobally(planner.global_, query, view.globalSpace(),
@@ -288,13 +299,15 @@ GbPlanner::GbPlanner(const GbPlannerParams& params, const RobotModel& robot, dou
     : params_(params),
       robot_(robot),
       evaluator_(robot.sensor_models, resolution_m, map::GainCounting::kPerRay),
+      credible_({params.closing_height_m, params.growth_m}),
       global_(limitsFrom(params)),
       tried_(params.tried_radius_m),
       trail_known_until_s_(-std::numeric_limits<double>::infinity()) {}
 
 PlanResult GbPlanner::doPlan(const PlanRequest& request) {
   const Stopwatch watch;
-  Search search(*this, request);
+  Search search(*this, request, params_.local_box_m);
+  search.view.prepareSearch(search.credible());
   search.result.stats.window_ms = watch.milliseconds();
   const StartCheck start = checkStart(request, search.view.localSpace());
   if (!start.root) return refusedStart(start);
@@ -312,7 +325,7 @@ PlanResult GbPlanner::doPlan(const PlanRequest& request) {
 
 PlanResult GbPlanner::doPlanHome(const PlanRequest& request) {
   const Stopwatch watch;
-  Search search(*this, request);
+  Search search(*this, request, joiningBox(params_));
   const StartCheck start = checkStart(request, search.view.localSpace());
   if (!start.root) return refusedStart(start);
   search.root = *start.root;

@@ -45,7 +45,6 @@ struct Search {
 
   void computeVolumetricGains() {
     const Stopwatch watch;
-    view.prepareGains();
     for (const Polyline& path : paths) {
       plan.gains_m3.push_back(view.gainAt(path.back(), headingAtEnd(path)));
     }

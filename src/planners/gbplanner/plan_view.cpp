@@ -3,7 +3,6 @@
 #include <utility>
 
 #include "spelunk/common/contract.h"
-#include "spelunk/planners/gbplanner/credible_window.h"
 
 namespace spelunk::planners::gbplanner {
 namespace {
@@ -37,56 +36,50 @@ Eigen::Vector3d gainMargin(const map::GainEvaluator& evaluator) {
   return {evaluator.reach(), evaluator.reach(), kSteepest * evaluator.reach()};
 }
 
-Credibility credibilityOf(const GbPlannerParams& params) {
-  return {params.closing_height_m, params.growth_m};
-}
-
 }  // namespace
 
 PlanView::PlanView(const PlanRequest& request, const RobotModel& robot,
-                   const GbPlannerParams& params, const map::GainEvaluator& evaluator)
+                   const GbPlannerParams& params, const map::GainEvaluator& evaluator,
+                   const Eigen::Vector3d& box_m)
     : request_(request),
+      robot_(robot),
       params_(params),
       evaluator_(evaluator),
-      local_box_(
-          intersection(boxAround(request.pose.position, params.local_box_m), request.bounds)),
+      local_box_(intersection(boxAround(request.pose.position, box_m), request.bounds)),
       window_(*request.map, knownPart(grown(local_box_, robot.box_m + params.safety_margin_m),
                                       *request.map, request.pose.position, oneVoxel(*request.map))),
       inflated_(window_, robot.box_m),
-      inflated_roomy_(window_, robot.box_m + 2.0 * params.safety_margin_m),
       checker_(std::make_unique<navigation::SegmentChecker>(request.map, robot.box_m)),
       local_space_([this](const Eigen::Vector3d& p,
                           const Eigen::Vector3d& q) { return inflated_.sweep(p, q); },
                    robot.box_m, request.bounds, request.zones),
       roomy_space_([this](const Eigen::Vector3d& p,
-                          const Eigen::Vector3d& q) { return inflated_roomy_.sweep(p, q); },
+                          const Eigen::Vector3d& q) { return inflated_roomy_->sweep(p, q); },
                    robot.box_m, request.bounds, request.zones),
       global_space_([this](const Eigen::Vector3d& a,
                            const Eigen::Vector3d& b) { return checker_->sweep(a, b); },
                     robot.box_m, request.bounds, request.zones) {}
 
-void PlanView::prepareGains() {
-  const AxisAlignedBox region =
-      knownPart(grown(local_box_, gainMargin(evaluator_)), *request_.map, request_.pose.position,
-                rayMargin(evaluator_, *request_.map));
-  credible_ = credibleWindow(map::LocalWindow(*request_.map, region), credibilityOf(params_));
+void PlanView::prepareSearch(const map::FrozenMap& credible) {
+  if (credible_) return;
+  inflated_roomy_.emplace(window_, robot_.box_m + 2.0 * params_.safety_margin_m);
+  credible_.emplace(credible,
+                    knownPart(grown(local_box_, gainMargin(evaluator_)), *request_.map,
+                              request_.pose.position, rayMargin(evaluator_, *request_.map)));
 }
 
 double PlanView::gainAt(const Eigen::Vector3d& position, double yaw) const {
-  require(credible_.has_value(), "PlanView: prepareGains was not called");
+  require(credible_.has_value(), "PlanView: prepareSearch was not called");
   return evaluator_.evaluate(*credible_, position, yaw, request_.bounds).unknown_m3;
 }
 
-double gainAnywhere(const PlanRequest& request, const GbPlannerParams& params,
+double gainAnywhere(const PlanRequest& request, const map::FrozenMap& credible,
                     const map::GainEvaluator& evaluator, const Eigen::Vector3d& position,
                     double yaw) {
   const Eigen::Vector3d size = 2.0 * gainMargin(evaluator);
-  const map::LocalWindow window(*request.map,
-                                knownPart(boxAround(position, size), *request.map, position,
-                                          rayMargin(evaluator, *request.map)));
-  return evaluator
-      .evaluate(credibleWindow(window, credibilityOf(params)), position, yaw, request.bounds)
-      .unknown_m3;
+  const map::LocalWindow window(credible, knownPart(boxAround(position, size), *request.map,
+                                                    position, rayMargin(evaluator, *request.map)));
+  return evaluator.evaluate(window, position, yaw, request.bounds).unknown_m3;
 }
 
 }  // namespace spelunk::planners::gbplanner

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "spelunk/common/robot_model.h"
+#include "spelunk/map/credible_map.h"
 #include "spelunk/map/volumetric_gain.h"
 #include "spelunk/planners/exploration_planner.h"
 #include "spelunk/planners/gbplanner/gb_planner_params.h"
@@ -44,6 +45,7 @@ class GbPlanner final : public ExplorationPlanner {
   GbPlannerParams params_;
   RobotModel robot_;
   map::GainEvaluator evaluator_;
+  map::CredibleMap credible_;
   GlobalGraph global_;
   TriedTargets tried_;
   std::optional<Proposal> proposal_;

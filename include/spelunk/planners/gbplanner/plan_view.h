@@ -18,8 +18,9 @@ namespace spelunk::planners::gbplanner {
 /// Refers to the request, the robot and the evaluator, which must outlive it.
 class PlanView {
  public:
+  /// `box_m`: full extents of the local box.
   PlanView(const PlanRequest& request, const RobotModel& robot, const GbPlannerParams& params,
-           const map::GainEvaluator& evaluator);
+           const map::GainEvaluator& evaluator, const Eigen::Vector3d& box_m);
   PlanView(const PlanView&) = delete;  // its free spaces refer to its windows
   PlanView& operator=(const PlanView&) = delete;
 
@@ -28,24 +29,25 @@ class PlanView {
   [[nodiscard]] const map::LocalWindow& window() const { return window_; }
   /// The local box; positions outside it are unknown.
   [[nodiscard]] const FreeSpace& localSpace() const { return local_space_; }
-  /// The same with the safety margin around the robot: where it would rather be.
-  [[nodiscard]] const FreeSpace& roomySpace() const { return roomy_space_; }
   /// The whole map, slower.
   [[nodiscard]] const FreeSpace& globalSpace() const { return global_space_; }
-  /// Makes the window that gains are computed in; call once before gainAt().
-  void prepareGains();
+  /// Makes what only a search needs; call once before roomySpace() and gainAt().
+  void prepareSearch(const map::FrozenMap& credible);
+  /// The local box with the safety margin around the robot: where it would rather be.
+  [[nodiscard]] const FreeSpace& roomySpace() const { return roomy_space_; }
   /// VolumetricGain at a position of the local box, over credible unknown voxels only; m3.
   [[nodiscard]] double gainAt(const Eigen::Vector3d& position, double yaw) const;
 
  private:
   const PlanRequest& request_;
+  const RobotModel& robot_;
   const GbPlannerParams& params_;
   const map::GainEvaluator& evaluator_;
   AxisAlignedBox local_box_;
   map::LocalWindow window_;
   std::optional<map::LocalWindow> credible_;
   map::InflatedWindow inflated_;
-  map::InflatedWindow inflated_roomy_;
+  std::optional<map::InflatedWindow> inflated_roomy_;
   std::unique_ptr<navigation::SegmentChecker> checker_;
   FreeSpace local_space_;
   FreeSpace roomy_space_;
@@ -53,7 +55,7 @@ class PlanView {
 };
 
 /// VolumetricGain at any place of the map, with a window of its own; m3.
-[[nodiscard]] double gainAnywhere(const PlanRequest& request, const GbPlannerParams& params,
+[[nodiscard]] double gainAnywhere(const PlanRequest& request, const map::FrozenMap& credible,
                                   const map::GainEvaluator& evaluator,
                                   const Eigen::Vector3d& position, double yaw);
 

@@ -1,0 +1,302 @@
+#include "spelunk/map/credible_map.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <utility>
+#include <vector>
+
+#include "frozen_blocks.h"
+#include "spelunk/common/contract.h"
+
+namespace spelunk::map {
+namespace {
+
+constexpr int kChunkSide = 32;
+constexpr int kHalo = kBlockSide;  ///< Voxels around a chunk that are looked at in x and y.
+constexpr int kRows = kChunkSide + 2 * kHalo;
+constexpr int kGapMax = 30;
+constexpr int kGrowthMax = kHalo - 1;
+
+/// A chunk and what lies around it, one bit a voxel: a word is a row along x, a layer is one
+/// height.
+class Rows {
+ public:
+  explicit Rows(int layers)
+      : layers_(layers), words_(static_cast<std::size_t>(layers) * kRows, 0) {}
+
+  [[nodiscard]] int layers() const { return layers_; }
+  [[nodiscard]] std::uint64_t& at(int y, int z) { return words_[offset(y, z)]; }
+  [[nodiscard]] std::uint64_t at(int y, int z) const { return words_[offset(y, z)]; }
+  [[nodiscard]] std::uint64_t* layer(int z) { return words_.data() + offset(0, z); }
+  [[nodiscard]] const std::uint64_t* layer(int z) const { return words_.data() + offset(0, z); }
+  [[nodiscard]] bool isEmpty() const {
+    return std::all_of(words_.begin(), words_.end(), [](std::uint64_t word) { return word == 0; });
+  }
+  void clear() { std::fill(words_.begin(), words_.end(), 0); }
+
+ private:
+  static std::size_t offset(int y, int z) {
+    return static_cast<std::size_t>(z) * kRows + static_cast<std::size_t>(y);
+  }
+  int layers_;
+  std::vector<std::uint64_t> words_;
+};
+
+template <class Combine>
+void combineLayers(Rows& rows, int to, int from, Combine&& combine) {
+  std::uint64_t* out = rows.layer(to);
+  const std::uint64_t* in = rows.layer(from);
+  for (int y = 0; y < kRows; ++y) out[y] = combine(out[y], in[y]);
+}
+
+/// Each layer becomes the union of itself and the `length` - 1 below it.
+void spreadUp(Rows& rows, int length) {
+  for (int done = 1; done < length;) {
+    const int shift = std::min(done, length - done);
+    for (int z = rows.layers() - 1; z >= shift; --z)
+      combineLayers(rows, z, z - shift, [](std::uint64_t a, std::uint64_t b) { return a | b; });
+    done += shift;
+  }
+}
+
+/// Each layer becomes the intersection of itself and the `length` - 1 above it; no bits above all.
+void shrinkDown(Rows& rows, int length) {
+  for (int done = 1; done < length;) {
+    const int shift = std::min(done, length - done);
+    for (int z = 0; z < rows.layers(); ++z) {
+      if (z + shift < rows.layers())
+        combineLayers(rows, z, z + shift, [](std::uint64_t a, std::uint64_t b) { return a & b; });
+      else
+        std::fill_n(rows.layer(z), kRows, 0);
+    }
+    done += shift;
+  }
+}
+
+/// Works on the surroundings of one chunk at a time.
+class ChunkFilter {
+ public:
+  ChunkFilter(int gap, int reach)
+      : gap_(gap),
+        reach_(reach),
+        halo_(kBlockSide * ((gap + 2 + kBlockSide - 1) / kBlockSide)),
+        free_(kChunkSide + 2 * halo_),
+        occupied_(free_.layers()),
+        gaps_(free_.layers()),
+        wide_(free_.layers()) {}
+
+  /// The credible chunk at `key`; its masks are empty where nothing is known.
+  [[nodiscard]] StatusChunk computeChunk(const FrozenMap::Blocks& blocks, PackedKey key) {
+    load(blocks, key);
+    StatusChunk chunk;
+    chunk.key = key;
+    if (free_.isEmpty() && occupied_.isEmpty()) return chunk;
+    closeColumns();
+    growOccupied();
+    store(chunk);
+    return chunk;
+  }
+
+ private:
+  void load(const FrozenMap::Blocks& blocks, PackedKey key) {
+    free_.clear();
+    occupied_.clear();
+    const VoxelIndex first = unpackIndex(key) - VoxelIndex(kHalo, kHalo, halo_);
+    for (int z = 0; z < free_.layers(); z += kBlockSide)
+      for (int y = 0; y < kRows; y += kBlockSide)
+        for (int x = 0; x < kRows; x += kBlockSide) {
+          const VoxelIndex corner = first + VoxelIndex(x, y, z);
+          if (!isInKeyRange(corner)) continue;
+          if (const StatusBlock* block = blocks.find(packIndex(corner))) loadBlock(*block, x, y, z);
+        }
+  }
+
+  void loadBlock(const StatusBlock& block, int x, int y, int z) {
+    for (int k = 0; k < kBlockSide; ++k) {
+      const std::uint64_t occupied = block.occupied[static_cast<std::size_t>(k)];
+      const std::uint64_t free = block.known[static_cast<std::size_t>(k)] & ~occupied;
+      if ((free | occupied) == 0) continue;
+      for (int j = 0; j < kBlockSide; ++j) {
+        free_.at(y + j, z + k) |= ((free >> (8 * j)) & 0xFF) << x;
+        occupied_.at(y + j, z + k) |= ((occupied >> (8 * j)) & 0xFF) << x;
+      }
+    }
+  }
+
+  /// Step 1: a closing by gap + 1 in z finds the gaps; free space spreads up and down through them;
+  /// what it does not reach is solid.
+  void closeColumns() {
+    if (gap_ <= 0) return;
+    for (int z = 0; z < gaps_.layers(); ++z)
+      for (int y = 0; y < kRows; ++y) gaps_.at(y, z) = free_.at(y, z) | occupied_.at(y, z);
+    spreadUp(gaps_, gap_ + 1);
+    shrinkDown(gaps_, gap_ + 1);
+    for (int z = 0; z < gaps_.layers(); ++z)
+      for (int y = 0; y < kRows; ++y) gaps_.at(y, z) &= ~(free_.at(y, z) | occupied_.at(y, z));
+    const auto spread = [&](int from, int to) {
+      for (int y = 0; y < kRows; ++y) free_.at(y, to) |= free_.at(y, from) & gaps_.at(y, to);
+    };
+    for (int z = 1; z < free_.layers(); ++z) spread(z - 1, z);
+    for (int z = free_.layers() - 1; z > 0; --z) spread(z, z - 1);
+    for (int z = 0; z < gaps_.layers(); ++z)
+      for (int y = 0; y < kRows; ++y) occupied_.at(y, z) |= gaps_.at(y, z) & ~free_.at(y, z);
+  }
+
+  /// Step 2, where the chunk itself is affected.
+  void growOccupied() {
+    if (reach_ <= 0) return;
+    for (int z = halo_ - 1; z <= halo_ + kChunkSide; ++z) {
+      std::uint64_t row[kRows];
+      for (int y = 0; y < kRows; ++y) {
+        const std::uint64_t in = occupied_.at(y, z);
+        row[y] = in;
+        for (int k = 1; k <= reach_; ++k) row[y] |= in << k | in >> k;
+      }
+      for (int y = kHalo; y < kHalo + kChunkSide; ++y) {
+        std::uint64_t all = 0;
+        for (int k = -reach_; k <= reach_; ++k) all |= row[y + k];
+        wide_.at(y, z) = all;
+      }
+    }
+    for (int z = halo_; z < halo_ + kChunkSide; ++z)
+      for (int y = kHalo; y < kHalo + kChunkSide; ++y) {
+        occupied_.at(y, z) |= wide_.at(y, z - 1) | wide_.at(y, z) | wide_.at(y, z + 1);
+        free_.at(y, z) &= ~occupied_.at(y, z);
+      }
+  }
+
+  void store(StatusChunk& chunk) const {
+    for (int z = 0; z < kChunkSide; ++z)
+      for (int y = 0; y < kChunkSide; ++y) {
+        const std::uint64_t occupied = occupied_.at(kHalo + y, halo_ + z) >> kHalo;
+        const std::uint64_t known = occupied | free_.at(kHalo + y, halo_ + z) >> kHalo;
+        for (int x = 0; x < kChunkSide; x += kBlockSide) {
+          const std::size_t slot = StatusChunk::slotOf(packKey(x, y, z));
+          StatusBlock& block = chunk.blocks[slot];
+          const auto word = static_cast<std::size_t>(z % kBlockSide);
+          const int shift = 8 * (y % kBlockSide);
+          block.known[word] |= ((known >> x) & 0xFF) << shift;
+          block.occupied[word] |= ((occupied >> x) & 0xFF) << shift;
+        }
+      }
+  }
+
+  int gap_;
+  int reach_;
+  int halo_;  ///< Voxels above and below a chunk that are looked at.
+  Rows free_;
+  Rows occupied_;
+  Rows gaps_;
+  Rows wide_;
+};
+
+struct VoxelCounts {
+  std::size_t free = 0;
+  std::size_t occupied = 0;
+};
+
+VoxelCounts countsOf(const StatusChunk& chunk) {
+  VoxelCounts counts;
+  for (const StatusBlock& block : chunk.blocks)
+    for (std::size_t z = 0; z < kBlockSide; ++z) {
+      const auto occupied = static_cast<std::size_t>(__builtin_popcountll(block.occupied[z]));
+      counts.occupied += occupied;
+      counts.free += static_cast<std::size_t>(__builtin_popcountll(block.known[z])) - occupied;
+    }
+  return counts;
+}
+
+/// The chunks of `now` that differ from those of `before` and all around them, in a fixed order.
+std::vector<PackedKey> touchedChunks(const FrozenMap::Blocks& now,
+                                     const FrozenMap::Blocks& before) {
+  std::vector<PackedKey> touched;
+  for (std::size_t i = 0; i < now.chunks.size(); ++i) {
+    if (i < before.chunks.size() && before.chunks[i] == now.chunks[i]) continue;
+    const VoxelIndex corner = unpackIndex(now.chunks[i]->key);
+    for (int k = 0; k < 27; ++k) {
+      const VoxelIndex near =
+          corner + kChunkSide * (VoxelIndex(k % 3, k / 3 % 3, k / 9) - VoxelIndex::Ones());
+      if (isInKeyRange(near)) touched.push_back(packIndex(near));
+    }
+  }
+  std::sort(touched.begin(), touched.end());
+  touched.erase(std::unique(touched.begin(), touched.end()), touched.end());
+  return touched;
+}
+
+/// Whether `now` is `before` or came from it by changes: chunks keep their number for life.
+bool isLaterThan(const FrozenMap::Blocks& now, const FrozenMap::Blocks& before) {
+  if (now.chunks.size() < before.chunks.size()) return false;
+  for (std::size_t i = 0; i < before.chunks.size(); ++i)
+    if (now.chunks[i]->key != before.chunks[i]->key) return false;
+  return true;
+}
+
+}  // namespace
+
+struct CredibleMap::Impl {
+  Credibility credibility;
+  std::shared_ptr<const FrozenMap> source;
+  std::shared_ptr<const FrozenMap> result;
+
+  [[nodiscard]] ChunkFilter filterFor(double resolution_m) const {
+    const auto voxels = [&](double metres) {
+      return static_cast<int>(std::lround(metres / resolution_m));
+    };
+    return {std::min(voxels(credibility.closing_height_m), kGapMax),
+            std::min(voxels(credibility.growth_m), kGrowthMax)};
+  }
+
+  [[nodiscard]] bool continues(const FrozenMap& map) const {
+    return source != nullptr && source->resolution() == map.resolution() &&
+           isLaterThan(map.blocks(), source->blocks());
+  }
+
+  void update(const FrozenMap& map) {
+    const FrozenMap::Blocks nothing;
+    const bool goes_on = continues(map);
+    auto next = std::make_shared<FrozenMap::Blocks>(goes_on ? result->blocks() : nothing);
+    auto table = std::make_shared<KeyTable>(*next->table);
+    ChunkFilter filter = filterFor(map.resolution());
+    for (const PackedKey key : touchedChunks(map.blocks(), goes_on ? source->blocks() : nothing)) {
+      auto chunk = std::make_shared<StatusChunk>(filter.computeChunk(map.blocks(), key));
+      const VoxelCounts counts = countsOf(*chunk);
+      const std::uint32_t number = table->find(key);
+      const bool is_new = number == KeyTable::kAbsent;
+      if (is_new && counts.free + counts.occupied == 0) continue;
+      const VoxelCounts before = is_new ? VoxelCounts{} : countsOf(*next->chunks[number]);
+      next->free_voxels += counts.free - before.free;
+      next->occupied_voxels += counts.occupied - before.occupied;
+      if (is_new) {
+        table->insert(key, static_cast<std::uint32_t>(next->chunks.size()));
+        next->chunks.push_back(std::move(chunk));
+      } else {
+        next->chunks[number] = std::move(chunk);
+      }
+    }
+    next->table = std::move(table);
+    next->known = map.blocks().known;
+    next->known.min.array() -= kGrowthMax;
+    next->known.max.array() += kGrowthMax;
+    result = std::make_shared<const FrozenMap>(std::move(next), map.resolution());
+  }
+};
+
+CredibleMap::CredibleMap(const Credibility& credibility) : impl_(std::make_unique<Impl>()) {
+  impl_->credibility = credibility;
+}
+CredibleMap::~CredibleMap() = default;
+CredibleMap::CredibleMap(CredibleMap&&) noexcept = default;
+CredibleMap& CredibleMap::operator=(CredibleMap&&) noexcept = default;
+
+std::shared_ptr<const FrozenMap> CredibleMap::of(std::shared_ptr<const FrozenMap> map) {
+  require(map != nullptr, "CredibleMap: no map");
+  if (impl_->source != map) {
+    impl_->update(*map);
+    impl_->source = std::move(map);
+  }
+  return impl_->result;
+}
+
+}  // namespace spelunk::map
