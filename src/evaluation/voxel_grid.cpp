@@ -12,7 +12,7 @@ constexpr double kVoxelsMax = 3.2e10;  // 4 GB of bits
 }  // namespace
 
 VoxelGrid::VoxelGrid(const AxisAlignedBox& bounds, double resolution_m)
-    : resolution_m_(resolution_m) {
+    : resolution_m_(resolution_m), inverse_resolution_(1.0 / resolution_m) {
   require(resolution_m > 0.0, "VoxelGrid: resolution must be positive");
   require(!bounds.isEmpty() && bounds.size().allFinite(), "VoxelGrid: bounds must be finite");
   const Eigen::Array3d first = (bounds.min.array() / resolution_m).floor() - 1.0;
@@ -22,14 +22,6 @@ VoxelGrid::VoxelGrid(const AxisAlignedBox& bounds, double resolution_m)
   corner_ = resolution_m * first.matrix();
   size_ = (last - first).cast<int>().matrix() + Eigen::Vector3i::Ones();
   words_.assign((offsetOf(size_ - Eigen::Vector3i::Ones()) >> 6) + 1, 0);
-}
-
-Eigen::Vector3d VoxelGrid::scaled(const Eigen::Vector3d& point) const {
-  return (point - corner_) / resolution_m_;
-}
-
-Eigen::Vector3i VoxelGrid::cellOf(const Eigen::Vector3d& point) const {
-  return scaled(point).array().floor().cast<int>();
 }
 
 Eigen::Vector3d VoxelGrid::centreOf(const Eigen::Vector3i& cell) const {

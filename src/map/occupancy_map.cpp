@@ -6,7 +6,7 @@
 #include "frozen_blocks.h"
 #include "octree_file.h"
 #include "octree_mirror.h"
-#include "scan_marks.h"
+#include "scan_tracer.h"
 #include "spelunk/common/contract.h"
 #include "voxel_key.h"
 
@@ -42,6 +42,7 @@ struct OccupancyMap::Impl {
   BlockMap blocks;
   ScanMarks marks;
   ScanMarks ends;
+  RayMarker marker;
   std::shared_ptr<const FrozenMap> frozen;
   std::unique_ptr<OcTreeMirror> tree;
 };
@@ -74,15 +75,17 @@ std::vector<Eigen::Vector3f> OccupancyMap::Impl::usablePoints(const Scan& scan,
 
 void OccupancyMap::Impl::markScan(const Eigen::Vector3f& origin,
                                   const std::vector<Eigen::Vector3f>& points) {
-  const ScanTracer tracer(origin, params.resolution_m, params.range_max_m);
+  ScanTracer tracer(origin, params.resolution_m, params.range_max_m);
+  tracer.reserve(points.size());
   marks.clear();
-  if (!params.discretize) {
-    for (const Eigen::Vector3f& point : points) tracer.trace(point, marks);
-    return;
-  }
   ends.clear();
-  for (const Eigen::Vector3f& point : points)
-    if (ends.markHit(tracer.keyOf(point))) tracer.trace(tracer.centreAround(point), marks);
+  for (const Eigen::Vector3f& point : points) {
+    if (!params.discretize)
+      tracer.add(point, marks);
+    else if (ends.markHit(tracer.keyOf(point)))
+      tracer.add(tracer.centreAround(point), marks);
+  }
+  marker.markFree(tracer.walks(), marks);
 }
 
 OccupancyMap::OccupancyMap(const MapParams& params) {

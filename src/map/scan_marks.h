@@ -50,29 +50,4 @@ class ScanMarks {
   KeyTable table_{12};
 };
 
-/// The voxels OctoMap would update for one scan (Hornung et al., OctoMap, Autonomous Robots 2013,
-/// section 5): same arithmetic, so the same voxels bit for bit.
-class ScanTracer {
- public:
-  /// The origin's key must be in range with a margin of one block.
-  ScanTracer(const Eigen::Vector3f& origin, double resolution_m, double range_max_m);
-
-  /// Marks the ray to `end`: free up to it and hit at it, or free up to the range if it is longer.
-  /// `end` must be in key range with a margin of one block.
-  void trace(const Eigen::Vector3f& end, ScanMarks& marks) const;
-
-  /// The centre of the voxel around `point`, as OctoMap rounds it.
-  [[nodiscard]] Eigen::Vector3f centreAround(const Eigen::Vector3f& point) const;
-  [[nodiscard]] PackedKey keyOf(const Eigen::Vector3f& point) const;
-
- private:
-  void markFree(const Eigen::Vector3f& end, ScanMarks& marks) const;
-
-  Eigen::Vector3f origin_;
-  double resolution_m_;
-  double inverse_resolution_;
-  double range_max_m_;
-  PackedKey origin_key_;
-};
-
 }  // namespace spelunk::map

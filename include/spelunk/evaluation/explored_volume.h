@@ -29,7 +29,8 @@ class ExploredVolume {
   [[nodiscard]] double volume_m3() const;
 
  private:
-  void walk(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction, double range_m);
+  /// From a point of the grid; point and length in voxels.
+  void walk(const Eigen::Vector3d& from, const Eigen::Vector3d& direction, double length);
   [[nodiscard]] bool isFirstToEndIn(const Eigen::Vector3d& end);
 
   VoxelGrid seen_;

@@ -15,10 +15,14 @@ class VoxelGrid {
 
   [[nodiscard]] double resolution() const { return resolution_m_; }
   [[nodiscard]] const Eigen::Vector3i& size() const { return size_; }
-  [[nodiscard]] Eigen::Vector3i cellOf(const Eigen::Vector3d& point) const;
+  [[nodiscard]] Eigen::Vector3i cellOf(const Eigen::Vector3d& point) const {
+    return scaled(point).array().floor().cast<int>();
+  }
   [[nodiscard]] Eigen::Vector3d centreOf(const Eigen::Vector3i& cell) const;
   /// `point` in units of voxels from the grid's corner.
-  [[nodiscard]] Eigen::Vector3d scaled(const Eigen::Vector3d& point) const;
+  [[nodiscard]] Eigen::Vector3d scaled(const Eigen::Vector3d& point) const {
+    return (point - corner_) * inverse_resolution_;
+  }
 
   [[nodiscard]] bool contains(const Eigen::Vector3i& cell) const {
     return (cell.array() >= 0).all() && (cell.array() < size_.array()).all();
@@ -45,6 +49,7 @@ class VoxelGrid {
 
  private:
   double resolution_m_;
+  double inverse_resolution_;
   Eigen::Vector3d corner_;
   Eigen::Vector3i size_;
   std::vector<std::uint64_t> words_;

@@ -1,0 +1,135 @@
+#include "ray_walks.h"
+
+#include <limits>
+
+namespace spelunk::map {
+namespace {
+
+constexpr std::size_t kWordsMax = std::size_t{1} << 23;  // 64 MB of bits
+constexpr int kMargin = 2;  // voxels that rounding may lead a ray beyond its ends
+
+/// A dense grid of bits whose rows along x hold whole words and whose corner is one of a block.
+struct RayGrid {
+  VoxelIndex first;
+  VoxelIndex blocks;  ///< Along each axis.
+  std::size_t row_words;
+  std::size_t layer_words;
+
+  explicit RayGrid(const std::vector<RayWalk>& walks) {
+    VoxelIndex low = walks.front().start;
+    VoxelIndex high = low;
+    for (const RayWalk& walk : walks) {
+      low = low.cwiseMin(walk.end);
+      high = high.cwiseMax(walk.end);
+    }
+    low.array() -= kMargin;
+    high.array() += kMargin;
+    for (int i = 0; i < 3; ++i) {
+      first(i) = low(i) & ~(kBlockSide - 1);
+      blocks(i) = (high(i) - first(i)) / kBlockSide + 1;
+    }
+    blocks.x() = (blocks.x() + 7) / 8 * 8;
+    row_words = static_cast<std::size_t>(blocks.x()) / 8;
+    layer_words = row_words * 8 * static_cast<std::size_t>(blocks.y());
+  }
+
+  [[nodiscard]] std::size_t words() const {
+    return layer_words * 8 * static_cast<std::size_t>(blocks.z());
+  }
+  [[nodiscard]] std::int64_t stride(int axis) const {
+    const std::size_t strides[3] = {1, 64 * row_words, 64 * layer_words};
+    return static_cast<std::int64_t>(strides[axis]);
+  }
+  [[nodiscard]] std::int64_t offsetOf(const VoxelIndex& index) const {
+    std::int64_t offset = 0;
+    for (int i = 0; i < 3; ++i) offset += (index(i) - first(i)) * stride(i);
+    return offset;
+  }
+};
+
+/// All state of the loop is local: what the marks are written to might else be part of it.
+void walkThrough(const RayWalk& walk, const RayGrid& grid, std::uint64_t* words) {
+  double next_x = walk.next[0];
+  double next_y = walk.next[1];
+  double next_z = walk.next[2];
+  const double spacing[3] = {walk.spacing[0], walk.spacing[1], walk.spacing[2]};
+  const std::int64_t step[3] = {walk.step[0] * grid.stride(0), walk.step[1] * grid.stride(1),
+                                walk.step[2] * grid.stride(2)};
+  const double length = walk.length;
+  std::int64_t at = grid.offsetOf(walk.start);
+  const std::int64_t end = grid.offsetOf(walk.end);
+  double limit = std::numeric_limits<double>::infinity();  // the first voxel always counts
+  // Marks the voxel and leaves it by its nearest border; false if that lies beyond the ray's end.
+  const auto leave = [&](double& border, int axis) {
+    if (border > limit) return false;
+    words[at >> 6] |= std::uint64_t{1} << (at & 63);
+    at += step[axis];
+    border += spacing[axis];
+    limit = length;
+    return at != end;
+  };
+  for (bool is_going = true; is_going;) {
+    if (next_x < next_y)
+      is_going = next_x < next_z ? leave(next_x, 0) : leave(next_z, 2);
+    else
+      is_going = next_y < next_z ? leave(next_y, 1) : leave(next_z, 2);
+  }
+}
+
+/// The blocks of eight by eight rows, at a word of x each.
+void collectBlocks(const RayGrid& grid, const std::uint64_t* words, const VoxelIndex& block,
+                   ScanMarks& marks) {
+  const std::uint64_t* corner = words + static_cast<std::size_t>(block.z()) * 8 * grid.layer_words +
+                                static_cast<std::size_t>(block.y()) * 8 * grid.row_words +
+                                block.x();
+  std::uint64_t any = 0;
+  for (std::size_t z = 0; z < 8; ++z)
+    for (std::size_t y = 0; y < 8; ++y) any |= corner[z * grid.layer_words + y * grid.row_words];
+  for (int x = 0; x < 8; ++x) {
+    if (((any >> (8 * x)) & 0xFF) == 0) continue;
+    const VoxelIndex first =
+        grid.first + kBlockSide * VoxelIndex(8 * block.x() + x, block.y(), block.z());
+    Mask& free = marks.block(marks.touch(packIndex(first))).free;
+    for (std::size_t z = 0; z < 8; ++z)
+      for (std::size_t y = 0; y < 8; ++y) {
+        const std::uint64_t row = corner[z * grid.layer_words + y * grid.row_words];
+        free[z] |= ((row >> (8 * x)) & 0xFF) << (8 * y);
+      }
+  }
+}
+
+void walkOne(const RayWalk& walk, ScanMarks& marks) {
+  double next[3] = {walk.next[0], walk.next[1], walk.next[2]};
+  VoxelIndex at = walk.start;
+  double limit = std::numeric_limits<double>::infinity();
+  do {
+    const int axis = next[0] < next[1] ? (next[0] < next[2] ? 0 : 2) : (next[1] < next[2] ? 1 : 2);
+    if (next[axis] > limit) return;
+    const PackedKey key = packIndex(at);
+    marks.block(marks.touch(key)).free[static_cast<std::size_t>(wordOf(key))] |= std::uint64_t{1}
+                                                                                 << bitOf(key);
+    at(axis) += walk.step[axis];
+    next[axis] += walk.spacing[axis];
+    limit = walk.length;
+  } while (at != walk.end);
+}
+
+}  // namespace
+
+void RayMarker::markFreeOneByOne(const std::vector<RayWalk>& walks, ScanMarks& marks) {
+  for (const RayWalk& walk : walks) walkOne(walk, marks);
+}
+
+void RayMarker::markFree(const std::vector<RayWalk>& walks, ScanMarks& marks) {
+  if (walks.empty()) return;
+  const RayGrid grid(walks);
+  if (grid.words() > kWordsMax) return markFreeOneByOne(walks, marks);
+  words_.assign(grid.words(), 0);
+  for (const RayWalk& walk : walks) walkThrough(walk, grid, words_.data());
+  for (int z = 0; z < grid.blocks.z(); ++z)
+    for (int y = 0; y < grid.blocks.y(); ++y)
+      for (int x = 0; x < grid.blocks.x() / 8; ++x)
+        collectBlocks(grid, words_.data(), {x, y, z}, marks);
+}
+
+}  // namespace spelunk::map
