@@ -1,0 +1,75 @@
+#pragma once
+
+#include <Eigen/Geometry>
+#include <cstdint>
+#include <vector>
+
+#include "spelunk/terrain/elevation_map.h"
+
+namespace spelunk::terrain {
+
+/// Where a scan's points lie: x, y from the window's lowest corner, z as in the world. Floats,
+/// since the window is small.
+struct WindowFrame {
+  Eigen::Matrix3f R_window_sensor;
+  Eigen::Vector3f sensor;  ///< The sensor's origin.
+  Eigen::Vector3f base;    ///< Of the robot.
+  Eigen::Isometry3f T_base_window;
+  float foot_z = 0.0F;  ///< The robot's ground.
+};
+
+/// One scan's points sorted into the cells of a window. Keeps its memory from scan to scan.
+class ScanCells {
+ public:
+  /// What a scan says of one cell.
+  struct Measure {
+    int x = 0;  ///< Cell from the window's lowest.
+    int y = 0;
+    float lowest = 0.0F;  ///< Return.
+    float height = 0.0F;  ///< Mean of the highest returns within the clearance.
+    int count = 0;        ///< Of those.
+  };
+  /// The lowest ray of a sector that leaves the window: its fall a metre; 0 or less if none goes
+  /// down.
+  struct Sector {
+    float fall = 0.0F;
+    Eigen::Vector2f direction = Eigen::Vector2f::Zero();  ///< Unit.
+  };
+
+  ScanCells(const ElevationParams& params, const WindowGrid& grid);
+
+  /// Sorts the points and reduces each cell's to a measure. `heights` are the known cells (NaN
+  /// where unknown): what hangs above them by the clearance is dropped.
+  void collect(const std::vector<Eigen::Vector3f>& points, const WindowFrame& frame,
+               const WindowGrid& grid, const std::vector<float>& heights, ElevationUpdate& update);
+
+  /// In the order the scan first met the cells.
+  [[nodiscard]] const std::vector<Measure>& measures() const { return measures_; }
+  [[nodiscard]] const std::vector<Sector>& sectors() const { return sectors_; }
+
+ private:
+  struct Stack {  ///< The returns in one cell.
+    float lowest;
+    float top;
+    float sum;
+    int count;
+  };
+  void sortBlock(const Eigen::Vector3f* points, std::size_t count, const WindowFrame& frame,
+                 ElevationUpdate& update);
+  void addFar(const Eigen::Vector3f& from_sensor);
+  void reduce(const WindowGrid& grid, const std::vector<float>& heights, ElevationUpdate& update);
+
+  int side_;
+  float cell_m_;
+  float clearance_m_;
+  float climb_;  ///< Rise a metre.
+  Eigen::Vector3f half_body_m_;
+  std::vector<Stack> stacks_;          ///< By y * side + x; empty between calls.
+  std::vector<std::uint32_t> touched_;  ///< Stacks in use.
+  std::vector<std::uint32_t> cells_;    ///< Of the points in the window, in sensor order.
+  std::vector<float> heights_;          ///< Of the same.
+  std::vector<Measure> measures_;
+  std::vector<Sector> sectors_;
+};
+
+}  // namespace spelunk::terrain
