@@ -14,8 +14,9 @@ namespace {
 constexpr float kInf = std::numeric_limits<float>::infinity();
 constexpr float kUnknown = std::numeric_limits<float>::quiet_NaN();
 constexpr float kLeastVariance = 0.003F * 0.003F;  // below it lies what a cell's height means
-constexpr int kIndependent = 4;       // returns of one scan in a cell; more share their errors
-constexpr float kBoundDrift = 0.01F;  // of an odometry's height, a metre of way
+constexpr int kIndependent = 4;        // returns of one scan in a cell; more share their errors
+constexpr float kBoundDrift = 0.01F;   // of an odometry's height, a metre of way
+constexpr float kDriftStep_m = 0.01F;  // added in steps: each concerns the whole map
 constexpr float kAssumedVariance = 0.05F * 0.05F;
 constexpr double kStill_m = 1e-4;  // a move below this is none
 
@@ -120,9 +121,13 @@ void ElevationMap::growUncertainty(const Eigen::Vector3d& position, double stamp
     const double seconds = std::max(0.0, stamp_s - last_stamp_s_);
     const auto growth =
         static_cast<float>(params_.growth_m2_per_m * way + params_.growth_m2_per_s * seconds);
-    const float drift = kBoundDrift * static_cast<float>(way);
     for (float& variance : variance_) variance += growth;
-    for (float& bound : bound_) bound += drift;
+    pending_drift_m_ += kBoundDrift * static_cast<float>(way);
+  }
+  changed_everywhere_ = pending_drift_m_ >= kDriftStep_m;
+  if (changed_everywhere_) {
+    for (float& bound : bound_) bound += pending_drift_m_;
+    pending_drift_m_ = 0.0F;
   }
   last_position_ = position;
   last_stamp_s_ = stamp_s;
@@ -193,6 +198,7 @@ void ElevationMap::assumeGroundUnder(const Eigen::Isometry3d& T_world_base) {
   require(isRigid(T_world_base), "ElevationMap: pose is not a rigid motion");
   moveWindow(grid_.cellOf(T_world_base.translation().head<2>()));
   changed_.clear();
+  changed_everywhere_ = false;
   foot_z_ = T_world_base.translation().z() - params_.base_height_m;
   const Eigen::Vector2d half = 0.5 * params_.body_m.head<2>();
   const Eigen::Isometry3d T_base_world = T_world_base.inverse();

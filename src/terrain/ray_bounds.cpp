@@ -34,8 +34,8 @@ void lowerBoundsAlong(const Eigen::Vector3f& sensor, const Eigen::Vector3f& end,
     const CellIndex at(grid.first().x() + (x >> kFractionBits),
                        grid.first().y() + (y >> kFractionBits));
     float& bound = bounds[grid.slotOf(at)];
-    if (z >= bound) continue;
-    if (z < bound - kNews_m) changed.push_back(at);
+    if (z >= bound - kNews_m) continue;
+    changed.push_back(at);
     bound = z;
   }
 }

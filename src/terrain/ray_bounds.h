@@ -10,7 +10,8 @@ namespace spelunk::terrain {
 
 /// Lowers the bounds under one ray that goes down from `sensor` to `end` (both in the window, see
 /// WindowFrame): a surface below the ray is lower than the ray. One cell a step along the longer
-/// axis, walked from the end backwards to the sensor; the end's own cell is left out. Appends the cells whose bound fell by more than a millimetre to `changed`.
+/// axis, walked from the end backwards to the sensor; the end's own cell is left out. Bounds fall
+/// by more than a millimetre or not at all; the cells where they fell are appended to `changed`.
 void lowerBoundsAlong(const Eigen::Vector3f& sensor, const Eigen::Vector3f& end,
                       const WindowGrid& grid, std::vector<float>& bounds,
                       std::vector<CellIndex>& changed);

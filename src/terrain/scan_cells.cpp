@@ -9,8 +9,8 @@ namespace spelunk::terrain {
 namespace {
 
 constexpr std::size_t kBlock = 256;
-constexpr float kTopBand_m = 0.1F;  // noise and slope within a cell, less than a step
-constexpr int kSectors = 512;       // 5 cm apart at 4 m
+constexpr float kTopBand_m = 0.1F;   // noise and slope within a cell, less than a step
+constexpr int kSectors = 512;        // 5 cm apart at 4 m
 constexpr float kFarthest_m = 1e5F;  // farther coordinates are no returns
 constexpr float kInf = std::numeric_limits<float>::infinity();
 

@@ -64,7 +64,7 @@ class ScanCells {
   float clearance_m_;
   float climb_;  ///< Rise a metre.
   Eigen::Vector3f half_body_m_;
-  std::vector<Stack> stacks_;          ///< By y * side + x; empty between calls.
+  std::vector<Stack> stacks_;           ///< By y * side + x; empty between calls.
   std::vector<std::uint32_t> touched_;  ///< Stacks in use.
   std::vector<std::uint32_t> cells_;    ///< Of the points in the window, in sensor order.
   std::vector<float> heights_;          ///< Of the same.

@@ -39,8 +39,9 @@ struct ElevationParams {
           "what hangs higher above the ground is no obstacle", Audience::kUser);
     field("body_m", body_m, Bounds{0.0, 10.0},
           "length, width, height around the base: returns inside are the robot's own");
-    field("climb_deg", climb_deg, Bounds{0.0, 60.0},
-          "ground rises at most so much from the robot; what is higher by the clearance is ceiling");
+    field(
+        "climb_deg", climb_deg, Bounds{0.0, 60.0},
+        "ground rises at most so much from the robot; what is higher by the clearance is ceiling");
     field("noise_base_m", noise_base_m, Bounds{1e-4, 1.0}, "deviation of a height at range 0");
     field("noise_quadratic_1pm", noise_quadratic_1pm, Bounds{0.0, 1.0},
           "its increase with the square of the range");
@@ -58,8 +59,8 @@ struct ElevationParams {
 
 enum class ScanVerdict {
   kUsed,
-  kEmpty,      ///< No usable point; the map moved with the robot, nothing else changed.
-  kRefused,    ///< A pose is not finite, not a rigid motion, or the sensor is out of the window.
+  kEmpty,    ///< No usable point; the map moved with the robot, nothing else changed.
+  kRefused,  ///< A pose is not finite, not a rigid motion, or the sensor is out of the window.
 };
 
 /// What one scan did to the map.
@@ -131,6 +132,8 @@ class ElevationMap {
   [[nodiscard]] const std::vector<float>& rayBounds() const { return bound_; }
   /// Cells whose height or ray bound changed in the last call that changed the map.
   [[nodiscard]] const std::vector<CellIndex>& changed() const { return changed_; }
+  /// Whether that call changed the ray bounds of the whole map.
+  [[nodiscard]] bool changedEverywhere() const { return changed_everywhere_; }
 
  private:
   void moveWindow(const CellIndex& middle);
@@ -149,6 +152,8 @@ class ElevationMap {
   std::vector<float> other_height_;  ///< Of the measurements in conflict with the cell.
   std::vector<std::uint8_t> other_count_;
   std::vector<CellIndex> changed_;
+  bool changed_everywhere_ = false;
+  float pending_drift_m_ = 0.0F;  ///< Not yet added to the bounds.
   std::optional<Eigen::Vector3d> last_position_;
   double first_stamp_s_ = 0.0;
   double last_stamp_s_ = 0.0;

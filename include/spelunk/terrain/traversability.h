@@ -51,12 +51,12 @@ struct TraversabilityParams {
 };
 
 enum class GroundClass : std::uint8_t {
-  kUnknown,      ///< Never seen, or too little around it to tell.
+  kUnknown,  ///< Never seen, or too little around it to tell.
   kTraversable,
-  kTooSteep,     ///< Which limit is exceeded by the largest factor.
+  kTooSteep,  ///< Which limit is exceeded by the largest factor.
   kStep,
   kTooRough,
-  kDrop          ///< Not seen, but rays passed so low over it that no ground to walk on is there.
+  kDrop  ///< Not seen, but rays passed so low over it that no ground to walk on is there.
 };
 
 /// What the ground around one cell is like.
@@ -74,6 +74,8 @@ struct TraversabilityLayers {
   std::vector<float> value;  ///< 1 best, 0 not traversable; NaN where unknown.
   std::vector<GroundClass> ground_class;
 };
+
+struct CellRect;
 
 /// Slope, step and roughness of every cell, each with a limit and a weight, and one value of them
 /// (Dang 2020, section 4.3, after Wermelinger et al., Navigation planning for legged robots in
@@ -110,39 +112,43 @@ class Traversability {
   [[nodiscard]] const TraversabilityParams& params() const { return params_; }
 
  private:
-  struct Rect;
-  struct Limits;
   void unwrap(const ElevationMap& elevation);
-  void markMoved(const CellIndex& first);
-  void markChanged(const std::vector<CellIndex>& changed, const CellIndex& first);
+  void markAll();
+  void markEntered(const CellIndex& shift);
+  void markAround(const std::vector<CellIndex>& cells, const CellIndex& first);
   void computeMarked(const WindowGrid& grid);
-  void compute(const Rect& rect, const WindowGrid& grid);
-  void fitPlanes(const Rect& rect);
-  void measureSteps(const Rect& rect);
-  void store(const Rect& rect, const WindowGrid& grid);
-  void findDrops(const Rect& rect, const WindowGrid& grid);
+  void fitPlanes(const CellRect& rect);
+  void sumRows(const CellRect& rect);
+  void solveRow(const CellRect& rect, int y);
+  void measureExtremes(const CellRect& rect);
+  void store(const CellRect& rect, const WindowGrid& grid);
+  void findDrops(const CellRect& rect, const WindowGrid& grid);
 
   TraversabilityParams params_;
+  float cell_m_;
   int side_;
   int plane_cells_;
   int step_cells_;
   int drop_cells_;
   int margin_;
-  float cell_m_;
   TraversabilityLayers layers_;
-  CellIndex last_first_;
+  CellIndex last_first_ = CellIndex::Zero();
   bool is_fresh_ = true;  ///< Nothing was computed yet.
   float reference_z_ = 0.0F;
   std::vector<std::uint8_t> marked_;  ///< Tiles to recompute.
-  // Working memory, by y * side + x.
-  std::vector<float> heights_;  ///< From reference_z_; 0 where unknown.
-  std::vector<float> known_;    ///< 1 or 0.
-  std::vector<float> bounds_;
+
+  // Working memory, by y * side + x; heights from reference_z_.
+  std::vector<float> known_;   ///< 1 or 0.
+  std::vector<float> height_;  ///< 0 where unknown.
+  std::vector<float> low_;     ///< Very high where unknown.
+  std::vector<float> high_;    ///< Very low where unknown.
+  std::vector<float> bound_;
   std::array<std::vector<float>, 6> row_sums_;
-  std::vector<float> slope_;
+  std::vector<float> slope_;  ///< Negative where no plane could be fitted.
   std::vector<float> roughness_;
   std::vector<float> lowest_;
   std::vector<float> highest_;
+  std::vector<float> fall_;
   std::vector<float> scratch_;
 };
 

@@ -18,8 +18,8 @@ class WindowGrid {
   WindowGrid(double cell_m, double reach_m);
 
   [[nodiscard]] double cell() const { return cell_m_; }
-  [[nodiscard]] int side() const { return side_; }                  ///< Cells along an axis.
-  [[nodiscard]] const CellIndex& first() const { return first_; }   ///< Lowest cell in the window.
+  [[nodiscard]] int side() const { return side_; }                 ///< Cells along an axis.
+  [[nodiscard]] const CellIndex& first() const { return first_; }  ///< Lowest cell in the window.
   [[nodiscard]] CellIndex middle() const { return first_.array() + side_ / 2; }
   [[nodiscard]] std::size_t slots() const { return static_cast<std::size_t>(stride_) * stride_; }
 
