@@ -50,7 +50,7 @@ Traversability::Traversability(const TraversabilityParams& params, const WindowG
   layers_.ground_class.assign(slots, GroundClass::kUnknown);
   const std::size_t cells = static_cast<std::size_t>(side_) * side_;
   for (auto* layer : {&known_, &height_, &low_, &high_, &bound_, &slope_, &roughness_, &lowest_,
-                      &highest_, &fall_, &scratch_})
+                      &highest_, &fall_, &floor_, &scratch_})
     layer->resize(cells);
   for (auto& sums : row_sums_) sums.resize(cells);
 }
@@ -159,7 +159,7 @@ void Traversability::computeMarked(const WindowGrid& grid) {
 void Traversability::measureExtremes(const CellRect& rect) {
   const CellRect around = rect.grown(drop_cells_);
   slidingMin(low_, side_, around, step_cells_, scratch_, lowest_);
-  slidingMax(high_, side_, rect, step_cells_, scratch_, highest_);
+  slidingMax(high_, side_, around, step_cells_, scratch_, highest_);
 }
 
 void Traversability::store(const CellRect& rect, const WindowGrid& grid) {
@@ -207,16 +207,18 @@ void Traversability::findDrops(const CellRect& rect, const WindowGrid& grid) {
   for (int y = around.y_begin; y < around.y_end; ++y)
     for (int x = around.x_begin; x < around.x_end; ++x) {
       const auto cell = static_cast<std::size_t>(y * side_ + x);
-      if (known_[cell] == 0.0F) lowest_[cell] = -kVeryHigh;
+      if (known_[cell] != 0.0F) continue;
+      lowest_[cell] = -kVeryHigh;
+      highest_[cell] = kVeryHigh;
     }
   slidingParabola(lowest_, side_, rect, drop_cells_, curvature, scratch_, fall_);
-  slidingMin(low_, side_, rect, drop_cells_, scratch_, highest_);
+  slidingMin(highest_, side_, rect, drop_cells_, scratch_, floor_);
   for (int y = rect.y_begin; y < rect.y_end; ++y)
     for (int x = rect.x_begin; x < rect.x_end; ++x) {
       const auto cell = static_cast<std::size_t>(y * side_ + x);
       const float bound = bound_[cell];
       if (known_[cell] != 0.0F || bound >= fall_[cell] - margin) continue;
-      if (bound >= highest_[cell] - margin && bound >= fall_[cell] - step_limit) continue;
+      if (bound >= floor_[cell] - margin && bound >= fall_[cell] - step_limit) continue;
       const std::size_t slot = grid.slotOf(grid.first().x() + x, grid.first().y() + y);
       layers_.ground_class[slot] = GroundClass::kDrop;
       layers_.value[slot] = 0.0F;

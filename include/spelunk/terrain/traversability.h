@@ -86,11 +86,12 @@ struct CellRect;
 /// a smaller window. value = 1 - sum of weight * (quantity / limit), 0 beyond a limit.
 ///
 /// A cell nobody has seen is a drop when a ray (ElevationMap::rayBound) passed over it
-///   - more than `drop_margin_m` below every known cell around it, or
-///   - more than `step_limit_m` lower than the ground may fall,
-/// where the ground may fall from each known cell around it (the lowest known within a foot's
-/// window of that, lest the top of a wall count) by a parabola of drop_slope_deg at the margin.
-/// Otherwise it is unknown.
+///   - lower than the ground may fall by more than `drop_margin_m`, and lower by as much than all
+///     ground seen around it (of which narrow gaps do not count: a hole's far wall is no ground), or
+///   - lower than the ground may fall by more than `step_limit_m`,
+/// where the ground may fall from each known cell around it (lowered to the lowest within a foot's
+/// window of that, lest the top of a wall count) by a parabola that, with the margin, is nowhere
+/// less than drop_slope_deg. Otherwise it is unknown.
 ///
 /// The outermost margin() cells of the window serve as neighbours only and stay unknown.
 class Traversability {
@@ -148,7 +149,8 @@ class Traversability {
   std::vector<float> roughness_;
   std::vector<float> lowest_;
   std::vector<float> highest_;
-  std::vector<float> fall_;
+  std::vector<float> fall_;   ///< How low ground may be by the ground around it.
+  std::vector<float> floor_;  ///< The lowest ground around.
   std::vector<float> scratch_;
 };
 
