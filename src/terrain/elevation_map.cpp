@@ -4,7 +4,6 @@
 #include <cmath>
 #include <limits>
 
-#include "ray_bounds.h"
 #include "scan_cells.h"
 #include "spelunk/common/contract.h"
 
@@ -18,6 +17,7 @@ constexpr int kIndependent = 4;        // returns of one scan in a cell; more sh
 constexpr float kBoundDrift = 0.01F;   // of an odometry's height, a metre of way
 constexpr float kDriftStep_m = 0.01F;  // added in steps: each concerns the whole map
 constexpr float kAssumedVariance = 0.05F * 0.05F;
+constexpr float kNews_m = 0.001F;  // a bound that falls less stays
 constexpr double kStill_m = 1e-4;  // a move below this is none
 
 bool isRigid(const Eigen::Isometry3d& T) {
@@ -183,15 +183,21 @@ void ElevationMap::fuseCells(const Eigen::Vector3f& sensor, float stamp, Elevati
 
 void ElevationMap::lowerBounds(const Eigen::Vector3f& sensor) {
   const auto cell_m = static_cast<float>(params_.cell_m);
-  const float extent = cell_m * static_cast<float>(grid_.side());
-  for (const ScanCells::Measure& measure : scan_cells_->measures()) {
-    const Eigen::Vector3f end((static_cast<float>(measure.x) + 0.5F) * cell_m,
-                              (static_cast<float>(measure.y) + 0.5F) * cell_m, measure.lowest);
-    lowerBoundsAlong(sensor, end, grid_, bound_, changed_);
-  }
-  for (const ScanCells::Sector& sector : scan_cells_->sectors())
-    if (sector.fall > 0.0F)
-      lowerBoundsAlong(sensor, exitOf(sector, sensor, extent), grid_, bound_, changed_);
+  const RayFan& rays = scan_cells_->rays();
+  for (int y = 0; y < grid_.side(); ++y)
+    for (int x = 0; x < grid_.side(); ++x) {
+      const CellIndex cell(grid_.first().x() + x, grid_.first().y() + y);
+      const std::size_t slot = grid_.slotOf(cell);
+      if (!std::isnan(height_[slot])) continue;
+      const Eigen::Vector2f place((static_cast<float>(x) + 0.5F) * cell_m - sensor.x(),
+                                  (static_cast<float>(y) + 0.5F) * cell_m - sensor.y());
+      const float steepest = rays.steepestBeyond(place);
+      if (steepest == 0.0F) continue;
+      const float bound = sensor.z() - steepest * place.norm();
+      if (bound >= bound_[slot] - kNews_m) continue;
+      bound_[slot] = bound;
+      changed_.push_back(cell);
+    }
 }
 
 void ElevationMap::assumeGroundUnder(const Eigen::Isometry3d& T_world_base) {

@@ -10,17 +10,12 @@ namespace {
 
 constexpr std::size_t kBlock = 256;
 constexpr float kTopBand_m = 0.1F;   // noise and slope within a cell, less than a step
-constexpr int kSectors = 512;        // 5 cm apart at 4 m
 constexpr float kFarthest_m = 1e5F;  // farther coordinates are no returns
 constexpr float kInf = std::numeric_limits<float>::infinity();
 
-/// Grows with the azimuth from 0 to 4, without trigonometry.
-float diamondAngle(float x, float y) {
-  const float share = x / (std::fabs(x) + std::fabs(y));
-  return y >= 0.0F ? 1.0F - share : 3.0F + share;
-}
-
 }  // namespace
+
+const ScanCells::Stack ScanCells::kEmpty{kInf, -kInf, 0.0F, 0};
 
 ScanCells::ScanCells(const ElevationParams& params, const WindowGrid& grid)
     : side_(grid.side()),
@@ -28,108 +23,144 @@ ScanCells::ScanCells(const ElevationParams& params, const WindowGrid& grid)
       clearance_m_(static_cast<float>(params.clearance_m)),
       climb_(static_cast<float>(std::tan(params.climb_deg * M_PI / 180.0))),
       half_body_m_(0.5F * params.body_m.cast<float>()),
-      stacks_(static_cast<std::size_t>(side_) * side_, Stack{kInf, -kInf, 0.0F, 0}),
-      sectors_(kSectors) {}
+      stacks_(static_cast<std::size_t>(side_) * side_, kEmpty),
+      rays_(params.cell_m, 2.9 * params.reach_m) {}
+
+/// Points of a block in the window's frame, coordinate by coordinate for the vectoriser.
+struct ScanCells::Block {
+  std::array<float, kBlock> x;
+  std::array<float, kBlock> y;
+  std::array<float, kBlock> z;
+  std::array<float, kBlock> distance;  ///< From the base, level.
+
+  Block(const Eigen::Vector3f* points, std::size_t count, const WindowFrame& frame) {
+    const Eigen::Matrix3f r = frame.R_window_sensor;
+    const Eigen::Vector3f t = frame.sensor;
+    const Eigen::Vector3f base = frame.base;
+    for (std::size_t i = 0; i < count; ++i) {
+      const float px = points[i].x();
+      const float py = points[i].y();
+      const float pz = points[i].z();
+      x[i] = r(0, 0) * px + r(0, 1) * py + r(0, 2) * pz + t.x();
+      y[i] = r(1, 0) * px + r(1, 1) * py + r(1, 2) * pz + t.y();
+      z[i] = r(2, 0) * px + r(2, 1) * py + r(2, 2) * pz + t.z();
+      const float dx = x[i] - base.x();
+      const float dy = y[i] - base.y();
+      distance[i] = std::sqrt(dx * dx + dy * dy);
+    }
+  }
+};
 
 void ScanCells::collect(const std::vector<Eigen::Vector3f>& points, const WindowFrame& frame,
                         const WindowGrid& grid, const std::vector<float>& heights,
                         ElevationUpdate& update) {
-  cells_.clear();
-  heights_.clear();
-  sectors_.assign(kSectors, Sector{});
+  if (cells_.size() < points.size()) {
+    cells_.resize(points.size());
+    heights_.resize(points.size());
+  }
+  used_ = 0;
+  rays_.clear();
   update.points = static_cast<int>(points.size());
   for (std::size_t i = 0; i < points.size(); i += kBlock)
     sortBlock(points.data() + i, std::min(kBlock, points.size() - i), frame, update);
-  reduce(grid, heights, update);
+  cutTallStacks(update);
+  measure(frame, grid, heights, update);
+  rays_.finish();
 }
 
 void ScanCells::sortBlock(const Eigen::Vector3f* points, std::size_t count,
                           const WindowFrame& frame, ElevationUpdate& update) {
-  std::array<float, kBlock> x;
-  std::array<float, kBlock> y;
-  std::array<float, kBlock> z;
-  const Eigen::Matrix3f& r = frame.R_window_sensor;
-  for (std::size_t i = 0; i < count; ++i) {
-    const Eigen::Vector3f& p = points[i];
-    x[i] = r(0, 0) * p.x() + r(0, 1) * p.y() + r(0, 2) * p.z() + frame.sensor.x();
-    y[i] = r(1, 0) * p.x() + r(1, 1) * p.y() + r(1, 2) * p.z() + frame.sensor.y();
-    z[i] = r(2, 0) * p.x() + r(2, 1) * p.y() + r(2, 2) * p.z() + frame.sensor.z();
-  }
+  const Block block(points, count, frame);
   const float extent = static_cast<float>(side_) * cell_m_;
-  const float per_cell = 1.0F / cell_m_;
   const float body_radius = half_body_m_.norm();
   for (std::size_t i = 0; i < count; ++i) {
-    const Eigen::Vector3f point(x[i], y[i], z[i]);
-    if (!(std::fabs(x[i]) + std::fabs(y[i]) + std::fabs(z[i]) < kFarthest_m)) {
-      ++update.dropped_not_finite;
-      continue;
-    }
-    if (!(x[i] >= 0.0F && x[i] < extent && y[i] >= 0.0F && y[i] < extent)) {
+    const float x = block.x[i];
+    const float y = block.y[i];
+    const float z = block.z[i];
+    if (x >= 0.0F && x < extent && y >= 0.0F && y < extent && std::fabs(z) < kFarthest_m) {
+      if (block.distance[i] < body_radius &&
+          ((frame.T_base_window * Eigen::Vector3f(x, y, z)).array().abs() <= half_body_m_.array())
+              .all())
+        ++update.dropped_self;
+      else
+        place(block, i, frame, update);
+    } else if (std::fabs(x) + std::fabs(y) + std::fabs(z) < kFarthest_m) {
       ++update.dropped_outside;
-      addFar(point - frame.sensor);
-      continue;
+      rays_.add(Eigen::Vector3f(x, y, z) - frame.sensor);
+    } else {
+      ++update.dropped_not_finite;
     }
-    const float distance = (point.head<2>() - frame.base.head<2>()).norm();
-    if (distance < body_radius &&
-        ((frame.T_base_window * point).array().abs() <= half_body_m_.array()).all()) {
-      ++update.dropped_self;
-      continue;
-    }
-    if (z[i] > frame.foot_z + clearance_m_ + climb_ * distance) {
-      ++update.dropped_high;
-      continue;
-    }
-    const int column = std::min(static_cast<int>(x[i] * per_cell), side_ - 1);
-    const int row = std::min(static_cast<int>(y[i] * per_cell), side_ - 1);
-    const auto cell = static_cast<std::uint32_t>(row * side_ + column);
+  }
+}
+
+void ScanCells::place(const Block& block, std::size_t i, const WindowFrame& frame,
+                      ElevationUpdate& update) {
+  const float z = block.z[i];
+  if (z > frame.foot_z + clearance_m_ + climb_ * block.distance[i]) {
+    ++update.dropped_high;
+    return;
+  }
+  const float per_cell = 1.0F / cell_m_;
+  const int column = std::min(static_cast<int>(block.x[i] * per_cell), side_ - 1);
+  const int row = std::min(static_cast<int>(block.y[i] * per_cell), side_ - 1);
+  const auto cell = static_cast<std::uint32_t>(row * side_ + column);
+  Stack& stack = stacks_[cell];
+  if (stack.count == 0) touched_.push_back(cell);
+  stack.lowest = std::min(stack.lowest, z);
+  stack.highest = std::max(stack.highest, z);
+  stack.sum += z;
+  ++stack.count;
+  cells_[used_] = cell;
+  heights_[used_] = z;
+  ++used_;
+}
+
+void ScanCells::cutTallStacks(ElevationUpdate& update) {
+  bool is_any_tall = false;
+  const auto isTall = [](const Stack& stack) { return stack.highest - stack.lowest > kTopBand_m; };
+  for (const std::uint32_t cell : touched_) {
     Stack& stack = stacks_[cell];
-    if (stack.lowest == kInf) touched_.push_back(cell);
-    stack.lowest = std::min(stack.lowest, z[i]);
-    cells_.push_back(cell);
-    heights_.push_back(z[i]);
+    if (!isTall(stack)) continue;
+    is_any_tall = true;
+    stack.count = 0;  // marks it
+    stack.sum = 0.0F;
+    stack.highest = -kInf;
   }
-}
-
-void ScanCells::addFar(const Eigen::Vector3f& from_sensor) {
-  if (from_sensor.z() >= 0.0F) return;
-  const float distance = from_sensor.head<2>().norm();
-  if (!(distance > 0.0F)) return;
-  const float angle = diamondAngle(from_sensor.x(), from_sensor.y());
-  const int index = std::min(static_cast<int>(angle * (kSectors / 4)), kSectors - 1);
-  Sector& sector = sectors_[static_cast<std::size_t>(index)];
-  const float fall = -from_sensor.z() / distance;
-  if (fall <= sector.fall) return;
-  sector.fall = fall;
-  sector.direction = from_sensor.head<2>() / distance;
-}
-
-void ScanCells::reduce(const WindowGrid& grid, const std::vector<float>& heights,
-                       ElevationUpdate& update) {
-  for (std::size_t i = 0; i < cells_.size(); ++i) {
+  if (!is_any_tall) return;
+  for (std::size_t i = 0; i < used_; ++i) {
     Stack& stack = stacks_[cells_[i]];
-    if (heights_[i] <= stack.lowest + clearance_m_) stack.top = std::max(stack.top, heights_[i]);
+    if (stack.count == 0 && heights_[i] <= stack.lowest + clearance_m_)
+      stack.highest = std::max(stack.highest, heights_[i]);
   }
-  for (std::size_t i = 0; i < cells_.size(); ++i) {
+  for (std::size_t i = 0; i < used_; ++i) {
     Stack& stack = stacks_[cells_[i]];
-    if (heights_[i] > stack.top) {
+    if (stack.count > 0) continue;
+    if (heights_[i] > stack.highest) {
       ++update.dropped_high;
-    } else if (heights_[i] >= stack.top - kTopBand_m) {
+    } else if (heights_[i] >= stack.highest - kTopBand_m) {
       stack.sum += heights_[i];
-      ++stack.count;
+      --stack.count;  // negative: still marked
     }
   }
+}
+
+void ScanCells::measure(const WindowFrame& frame, const WindowGrid& grid,
+                        const std::vector<float>& heights, ElevationUpdate& update) {
   measures_.clear();
   for (const std::uint32_t cell : touched_) {
     Stack& stack = stacks_[cell];
     const int x = static_cast<int>(cell) % side_;
     const int y = static_cast<int>(cell) / side_;
+    const int count = std::abs(stack.count);
     const float known = heights[grid.slotOf(grid.first().x() + x, grid.first().y() + y)];
+    rays_.add(Eigen::Vector3f((static_cast<float>(x) + 0.5F) * cell_m_,
+                              (static_cast<float>(y) + 0.5F) * cell_m_, stack.lowest) -
+              frame.sensor);
     if (stack.lowest > known + clearance_m_)
-      update.dropped_high += stack.count;
+      update.dropped_high += count;
     else
-      measures_.push_back(
-          {x, y, stack.lowest, stack.sum / static_cast<float>(stack.count), stack.count});
-    stack = Stack{kInf, -kInf, 0.0F, 0};
+      measures_.push_back({x, y, stack.lowest, stack.sum / static_cast<float>(count), count});
+    stack = kEmpty;
   }
   touched_.clear();
 }

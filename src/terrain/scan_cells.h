@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "ray_fan.h"
 #include "spelunk/terrain/elevation_map.h"
 
 namespace spelunk::terrain {
@@ -29,13 +30,6 @@ class ScanCells {
     float height = 0.0F;  ///< Mean of the highest returns within the clearance.
     int count = 0;        ///< Of those.
   };
-  /// The lowest ray of a sector that leaves the window: its fall a metre; 0 or less if none goes
-  /// down.
-  struct Sector {
-    float fall = 0.0F;
-    Eigen::Vector2f direction = Eigen::Vector2f::Zero();  ///< Unit.
-  };
-
   ScanCells(const ElevationParams& params, const WindowGrid& grid);
 
   /// Sorts the points and reduces each cell's to a measure. `heights` are the known cells (NaN
@@ -45,19 +39,24 @@ class ScanCells {
 
   /// In the order the scan first met the cells.
   [[nodiscard]] const std::vector<Measure>& measures() const { return measures_; }
-  [[nodiscard]] const std::vector<Sector>& sectors() const { return sectors_; }
+  /// Every ray that goes down, from the sensor.
+  [[nodiscard]] const RayFan& rays() const { return rays_; }
 
  private:
   struct Stack {  ///< The returns in one cell.
     float lowest;
-    float top;
+    float highest;
     float sum;
     int count;
   };
+  static const Stack kEmpty;
+  struct Block;
   void sortBlock(const Eigen::Vector3f* points, std::size_t count, const WindowFrame& frame,
                  ElevationUpdate& update);
-  void addFar(const Eigen::Vector3f& from_sensor);
-  void reduce(const WindowGrid& grid, const std::vector<float>& heights, ElevationUpdate& update);
+  void place(const Block& block, std::size_t i, const WindowFrame& frame, ElevationUpdate& update);
+  void cutTallStacks(ElevationUpdate& update);
+  void measure(const WindowFrame& frame, const WindowGrid& grid, const std::vector<float>& heights,
+               ElevationUpdate& update);
 
   int side_;
   float cell_m_;
@@ -66,10 +65,11 @@ class ScanCells {
   Eigen::Vector3f half_body_m_;
   std::vector<Stack> stacks_;           ///< By y * side + x; empty between calls.
   std::vector<std::uint32_t> touched_;  ///< Stacks in use.
-  std::vector<std::uint32_t> cells_;    ///< Of the points in the window, in sensor order.
-  std::vector<float> heights_;          ///< Of the same.
+  std::size_t used_ = 0;                ///< Of the two below: the points in the window.
+  std::vector<std::uint32_t> cells_;
+  std::vector<float> heights_;
   std::vector<Measure> measures_;
-  std::vector<Sector> sectors_;
+  RayFan rays_;
 };
 
 }  // namespace spelunk::terrain

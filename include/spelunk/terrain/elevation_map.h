@@ -96,8 +96,10 @@ class ScanCells;
 /// measurement enters a Kalman filter unless its Mahalanobis distance is too large; measurements
 /// that keep disagreeing with the cell, but agree with each other, replace it.
 ///
-/// Besides, every ray that goes down tells how high the surface below it can be at most: `bound`.
-/// It is how a hole is known whose bottom nobody sees. Not thread-safe.
+/// Besides, every ray that goes down tells how high the surface below it can be at most, which is
+/// kept for cells not seen yet: it is how a hole is known whose bottom nobody sees. Rays are
+/// gathered by direction (512 sectors) and by the distance of their ends (a cell's width). Not
+/// thread-safe.
 class ElevationMap {
  public:
   /// Throws Precondition if the window is impossible (see WindowGrid).
@@ -121,7 +123,8 @@ class ElevationMap {
   /// Height minus/plus `sigmas` standard deviations.
   [[nodiscard]] std::optional<double> lowerBound(const CellIndex& cell, double sigmas) const;
   [[nodiscard]] std::optional<double> upperBound(const CellIndex& cell, double sigmas) const;
-  /// The height some ray passed over the cell's surface at; nothing if none did.
+  /// The lowest height at which a ray passed over the cell; nothing if none did, or if the cell was
+  /// known by then.
   [[nodiscard]] std::optional<double> rayBound(const CellIndex& cell) const;
   /// Where the robot's ground is by its own pose, z.
   [[nodiscard]] double footHeight() const { return foot_z_; }

@@ -87,7 +87,8 @@ struct CellRect;
 ///
 /// A cell nobody has seen is a drop when a ray (ElevationMap::rayBound) passed over it
 ///   - lower than the ground may fall by more than `drop_margin_m`, and lower by as much than all
-///     ground seen around it (of which narrow gaps do not count: a hole's far wall is no ground), or
+///     ground seen around it (of which narrow gaps do not count: a hole's far wall is no ground),
+///     or
 ///   - lower than the ground may fall by more than `step_limit_m`,
 /// where the ground may fall from each known cell around it (lowered to the lowest within a foot's
 /// window of that, lest the top of a wall count) by a parabola that, with the margin, is nowhere
