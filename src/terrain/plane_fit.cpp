@@ -1,3 +1,4 @@
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 
@@ -12,93 +13,116 @@ constexpr float kLeastSpread = 0.3F;  // of the cells across, as a share of a fu
 
 enum RowSum { kN, kX, kXX, kZ, kXZ, kZZ };
 
+/// Several cells at a time, one in a lane: the compiler does not find this by itself.
+using Lanes = Eigen::Array<float, kLanes, 1>;
+
+Lanes at(const std::vector<float>& layer, std::size_t cell) {
+  return Eigen::Map<const Lanes>(layer.data() + cell);
+}
+void put(const Lanes& lanes, std::vector<float>& layer, std::size_t cell) {
+  Eigen::Map<Lanes>(layer.data() + cell) = lanes;
+}
+
 /// Sums over a window, x and y in cells from its middle.
 struct WindowSums {
-  float n = 0.0F, x = 0.0F, y = 0.0F, xx = 0.0F, xy = 0.0F, yy = 0.0F;
-  float z = 0.0F, xz = 0.0F, yz = 0.0F, zz = 0.0F;
+  Lanes n = Lanes::Zero();
+  Lanes x = Lanes::Zero();
+  Lanes y = Lanes::Zero();
+  Lanes xx = Lanes::Zero();
+  Lanes xy = Lanes::Zero();
+  Lanes yy = Lanes::Zero();
+  Lanes z = Lanes::Zero();
+  Lanes xz = Lanes::Zero();
+  Lanes yz = Lanes::Zero();
+  Lanes zz = Lanes::Zero();
 };
 
-struct Plane {
-  float slope;  ///< Tangent with heights and cells in one unit; negative if there is no plane.
-  float roughness;
+struct Planes {
+  Lanes slope;  ///< Tangent with heights and cells in one unit; negative if there is no plane.
+  Lanes roughness;
 };
 
 /// Least squares; the cells must not lie on a line.
-Plane planeOf(const WindowSums& s, float least_variance) {
-  const float n = std::max(s.n, 1.0F);
-  const float xx = s.xx - s.x * s.x / n;
-  const float xy = s.xy - s.x * s.y / n;
-  const float yy = s.yy - s.y * s.y / n;
-  const float xz = s.xz - s.x * s.z / n;
-  const float yz = s.yz - s.y * s.z / n;
-  const float zz = s.zz - s.z * s.z / n;
-  const float determinant = xx * yy - xy * xy;
-  const float trace = xx + yy;
-  const float root = std::sqrt(std::max(trace * trace - 4.0F * determinant, 0.0F));
-  const bool is_plane = s.n >= kLeastCells && 0.5F * (trace - root) >= n * least_variance;
-  const float divisor = is_plane ? determinant : 1.0F;
-  const float a = (xz * yy - yz * xy) / divisor;
-  const float b = (yz * xx - xz * xy) / divisor;
-  const float residual = std::max(zz - a * xz - b * yz, 0.0F);
-  return {is_plane ? std::sqrt(a * a + b * b) : -1.0F, std::sqrt(residual / n)};
+Planes planesOf(const WindowSums& s, float least_variance) {
+  const Lanes n = s.n.max(1.0F);
+  const Lanes xx = s.xx - s.x * s.x / n;
+  const Lanes xy = s.xy - s.x * s.y / n;
+  const Lanes yy = s.yy - s.y * s.y / n;
+  const Lanes xz = s.xz - s.x * s.z / n;
+  const Lanes yz = s.yz - s.y * s.z / n;
+  const Lanes zz = s.zz - s.z * s.z / n;
+  const Lanes determinant = xx * yy - xy * xy;
+  const Lanes trace = xx + yy;
+  const Lanes root = (trace * trace - 4.0F * determinant).max(0.0F).sqrt();
+  const auto is_plane = (s.n >= kLeastCells && 0.5F * (trace - root) >= n * least_variance).eval();
+  const Lanes divisor = is_plane.select(determinant, Lanes::Ones());
+  const Lanes a = (xz * yy - yz * xy) / divisor;
+  const Lanes b = (yz * xx - xz * xy) / divisor;
+  const Lanes residual = (zz - a * xz - b * yz).max(0.0F);
+  return {is_plane.select((a * a + b * b).sqrt(), -Lanes::Ones()), (residual / n).sqrt()};
 }
 
 }  // namespace
 
 void Traversability::fitPlanes(const CellRect& rect) {
-  sumRows(rect);
-  for (int y = rect.y_begin; y < rect.y_end; ++y) solveRow(rect, y);
+  for (int y = rect.y_begin - plane_cells_; y < rect.y_end + plane_cells_; ++y)
+    for (int x = rect.x_begin; x < rect.x_end; x += kLanes)
+      sumRow(static_cast<std::size_t>(y * side_ + x));
+  for (int y = rect.y_begin; y < rect.y_end; ++y)
+    for (int x = rect.x_begin; x < rect.x_end; x += kLanes)
+      solve(static_cast<std::size_t>(y * side_ + x));
 }
 
-void Traversability::sumRows(const CellRect& rect) {
-  const int count = rect.x_end - rect.x_begin;
-  for (int y = rect.y_begin - plane_cells_; y < rect.y_end + plane_cells_; ++y) {
-    const auto at = static_cast<std::size_t>(y * side_ + rect.x_begin);
-    std::array<float*, 6> sums;
-    for (std::size_t i = 0; i < 6; ++i) {
-      sums[i] = row_sums_[i].data() + at;
-      std::fill(sums[i], sums[i] + count, 0.0F);
-    }
-    for (int d = -plane_cells_; d <= plane_cells_; ++d) {
-      const auto offset = static_cast<float>(d);
-      const float* known = known_.data() + at + d;
-      const float* height = height_.data() + at + d;
-      for (int x = 0; x < count; ++x) {
-        sums[kN][x] += known[x];
-        sums[kX][x] += offset * known[x];
-        sums[kXX][x] += offset * offset * known[x];
-        sums[kZ][x] += height[x];
-        sums[kXZ][x] += offset * height[x];
-        sums[kZZ][x] += height[x] * height[x];
-      }
-    }
+void Traversability::sumRow(std::size_t cell) {
+  Lanes n = Lanes::Zero();
+  Lanes x = Lanes::Zero();
+  Lanes xx = Lanes::Zero();
+  Lanes z = Lanes::Zero();
+  Lanes xz = Lanes::Zero();
+  Lanes zz = Lanes::Zero();
+  for (int d = -plane_cells_; d <= plane_cells_; ++d) {
+    const auto offset = static_cast<float>(d);
+    const Lanes known = at(known_, cell + static_cast<std::size_t>(d));
+    const Lanes height = at(height_, cell + static_cast<std::size_t>(d));
+    n += known;
+    x += offset * known;
+    xx += offset * offset * known;
+    z += height;
+    xz += offset * height;
+    zz += height * height;
   }
+  put(n, row_sums_[kN], cell);
+  put(x, row_sums_[kX], cell);
+  put(xx, row_sums_[kXX], cell);
+  put(z, row_sums_[kZ], cell);
+  put(xz, row_sums_[kXZ], cell);
+  put(zz, row_sums_[kZZ], cell);
 }
 
-void Traversability::solveRow(const CellRect& rect, int y) {
+void Traversability::solve(std::size_t cell) {
   const float full = static_cast<float>(2 * plane_cells_ + 1);
   const float least_variance = kLeastSpread * kLeastSpread * full * full / 12.0F;
-  const auto at = static_cast<std::size_t>(y * side_ + rect.x_begin);
-  for (std::size_t x = 0; x < static_cast<std::size_t>(rect.x_end - rect.x_begin); ++x) {
-    WindowSums s;
-    for (int d = -plane_cells_; d <= plane_cells_; ++d) {
-      const std::size_t cell = at + x + static_cast<std::size_t>(d * side_);
-      const auto offset = static_cast<float>(d);
-      s.n += row_sums_[kN][cell];
-      s.x += row_sums_[kX][cell];
-      s.xx += row_sums_[kXX][cell];
-      s.y += offset * row_sums_[kN][cell];
-      s.yy += offset * offset * row_sums_[kN][cell];
-      s.xy += offset * row_sums_[kX][cell];
-      s.z += row_sums_[kZ][cell];
-      s.xz += row_sums_[kXZ][cell];
-      s.yz += offset * row_sums_[kZ][cell];
-      s.zz += row_sums_[kZZ][cell];
-    }
-    const Plane plane = planeOf(s, least_variance);
-    slope_[at + x] = plane.slope < 0.0F ? -1.0F : plane.slope / cell_m_;
-    roughness_[at + x] = plane.roughness;
+  WindowSums s;
+  for (int d = -plane_cells_; d <= plane_cells_; ++d) {
+    const std::size_t row = cell + static_cast<std::size_t>(d * side_);
+    const auto offset = static_cast<float>(d);
+    const Lanes n = at(row_sums_[kN], row);
+    const Lanes x = at(row_sums_[kX], row);
+    const Lanes z = at(row_sums_[kZ], row);
+    s.n += n;
+    s.y += offset * n;
+    s.yy += offset * offset * n;
+    s.x += x;
+    s.xy += offset * x;
+    s.xx += at(row_sums_[kXX], row);
+    s.z += z;
+    s.yz += offset * z;
+    s.xz += at(row_sums_[kXZ], row);
+    s.zz += at(row_sums_[kZZ], row);
   }
+  const Planes planes = planesOf(s, least_variance);
+  put((planes.slope < 0.0F).select(planes.slope, planes.slope / cell_m_), slope_, cell);
+  put(planes.roughness, roughness_, cell);
 }
 
 }  // namespace spelunk::terrain

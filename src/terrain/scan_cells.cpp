@@ -24,7 +24,7 @@ ScanCells::ScanCells(const ElevationParams& params, const WindowGrid& grid)
       climb_(static_cast<float>(std::tan(params.climb_deg * M_PI / 180.0))),
       half_body_m_(0.5F * params.body_m.cast<float>()),
       stacks_(static_cast<std::size_t>(side_) * side_, kEmpty),
-      rays_(params.cell_m, 2.9 * params.reach_m) {}
+      rays_(params.cell_m, 1.7 * params.reach_m) {}
 
 /// Points of a block in the window's frame, coordinate by coordinate for the vectoriser.
 struct ScanCells::Block {

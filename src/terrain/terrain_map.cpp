@@ -29,23 +29,25 @@ TerrainMap::TerrainMap(const TerrainParams& params)
 ElevationUpdate TerrainMap::insert(const Scan& scan, const Eigen::Isometry3d& T_world_base) {
   const ElevationUpdate update = elevation_.insert(scan, T_world_base);
   if (update.verdict == ScanVerdict::kRefused) return update;
-  traversability_.update(elevation_);
+  traversability_.note(elevation_);
   view_ = nullptr;
   return update;
 }
 
 void TerrainMap::assumeGroundUnder(const Eigen::Isometry3d& T_world_base) {
   elevation_.assumeGroundUnder(T_world_base);
-  traversability_.update(elevation_);
+  traversability_.note(elevation_);
   view_ = nullptr;
 }
 
-std::shared_ptr<const TerrainView> TerrainMap::freeze() const {
-  if (view_ == nullptr) view_ = std::make_shared<const TerrainView>(elevation_, traversability_);
+std::shared_ptr<const TerrainView> TerrainMap::freeze() {
+  if (view_ != nullptr) return view_;
+  traversability_.update(elevation_);
+  view_ = std::make_shared<const TerrainView>(elevation_, traversability_);
   return view_;
 }
 
-PathGroundCheck TerrainMap::checkPath(const Path& path) const {
+PathGroundCheck TerrainMap::checkPath(const Path& path) {
   return terrain::checkPath(*freeze(), path, params_.footprint);
 }
 

@@ -13,9 +13,55 @@ namespace {
 constexpr int kTile = 16;
 constexpr float kReferenceReach_m = 2.0F;  // sums of squares keep their digits so far from it
 
+constexpr float kNoValue = std::numeric_limits<float>::quiet_NaN();
+
+int tilesOf(int side) { return (side + kTile - 1) / kTile; }
+
 int cellsOf(double width_m, double cell_m) {
   return std::max(1, static_cast<int>(std::lround(width_m / cell_m)));
 }
+
+/// Limits and weights as the loop over cells wants them.
+class Rating {
+ public:
+  explicit Rating(const TraversabilityParams& params)
+      : slope_limit_(static_cast<float>(std::tan(params.slope_limit_deg * M_PI / 180.0))),
+        step_limit_(static_cast<float>(params.step_limit_m)),
+        roughness_limit_(static_cast<float>(params.roughness_limit_m)),
+        value_min_(static_cast<float>(params.value_min)) {
+    const double sum = params.slope_weight + params.step_weight + params.roughness_weight;
+    slope_weight_ = static_cast<float>(params.slope_weight / sum);
+    step_weight_ = static_cast<float>(params.step_weight / sum);
+    roughness_weight_ = static_cast<float>(params.roughness_weight / sum);
+  }
+
+  struct Result {
+    float value;
+    GroundClass ground_class;
+  };
+  /// Of a known cell; a negative slope stands for none.
+  [[nodiscard]] Result of(float slope_tangent, float step_m, float roughness_m) const {
+    if (slope_tangent < 0.0F) return {kNoValue, GroundClass::kUnknown};
+    const float slope = slope_tangent / slope_limit_;
+    const float step = step_m / step_limit_;
+    const float roughness = roughness_m / roughness_limit_;
+    const float worst = std::max({slope, step, roughness});
+    const float loss = slope_weight_ * slope + step_weight_ * step + roughness_weight_ * roughness;
+    const float value = worst <= 1.0F ? std::max(0.0F, 1.0F - loss) : 0.0F;
+    if (worst <= 1.0F && value >= value_min_) return {value, GroundClass::kTraversable};
+    if (slope == worst) return {value, GroundClass::kTooSteep};
+    return {value, step == worst ? GroundClass::kStep : GroundClass::kTooRough};
+  }
+
+ private:
+  float slope_limit_;
+  float step_limit_;
+  float roughness_limit_;
+  float value_min_;
+  float slope_weight_;
+  float step_weight_;
+  float roughness_weight_;
+};
 
 }  // namespace
 
@@ -46,36 +92,53 @@ Traversability::Traversability(const TraversabilityParams& params, const WindowG
   layers_.slope.resize(slots);
   layers_.step_m.resize(slots);
   layers_.roughness_m.resize(slots);
-  layers_.value.assign(slots, std::numeric_limits<float>::quiet_NaN());
+  layers_.value.assign(slots, kNoValue);
   layers_.ground_class.assign(slots, GroundClass::kUnknown);
-  const std::size_t cells = static_cast<std::size_t>(side_) * side_;
+  const std::size_t cells = static_cast<std::size_t>(side_) * side_ + kLanes;
   for (auto* layer : {&known_, &height_, &low_, &high_, &bound_, &slope_, &roughness_, &lowest_,
                       &highest_, &fall_, &floor_, &scratch_})
     layer->resize(cells);
   for (auto& sums : row_sums_) sums.resize(cells);
 }
 
+void Traversability::note(const ElevationMap& elevation) {
+  const std::vector<CellIndex>& changed = elevation.changed();
+  noted_.insert(noted_.end(), changed.begin(), changed.end());
+  noted_everywhere_ = noted_everywhere_ || elevation.changedEverywhere();
+}
+
 void Traversability::update(const ElevationMap& elevation) {
-  const CellIndex first = elevation.grid().first();
   const auto foot_z = static_cast<float>(elevation.footHeight());
-  const bool is_far = std::fabs(foot_z - reference_z_) > kReferenceReach_m;
-  if (is_fresh_ || is_far || elevation.changedEverywhere()) return updateAll(elevation);
+  if (is_fresh_ || std::fabs(foot_z - reference_z_) > kReferenceReach_m)
+    return updateAll(elevation);
   unwrap(elevation);
-  marked_.assign(marked_.size(), 0);
-  markEntered(first - last_first_);
-  markAround(elevation.changed(), first);
-  last_first_ = first;
-  computeMarked(elevation.grid());
+  const WindowGrid& grid = elevation.grid();
+  const int tiles = tilesOf(side_);
+  Marks shapes(static_cast<std::size_t>(tiles) * tiles, 0);
+  Marks drops(shapes.size(), noted_everywhere_ ? 1 : 0);
+  markEntered(grid.first() - last_first_, shapes);
+  markEntered(grid.first() - last_first_, drops);
+  markAround(grid.first(), std::max(plane_cells_, step_cells_), shapes);
+  markAround(grid.first(), margin_, drops);
+  for (const CellRect& rect : rectsOf(shapes)) computeShapes(rect, grid);
+  for (const CellRect& rect : rectsOf(drops)) findDrops(rect, grid);
+  last_first_ = grid.first();
+  noted_.clear();
+  noted_everywhere_ = false;
 }
 
 void Traversability::updateAll(const ElevationMap& elevation) {
   const auto foot_z = static_cast<float>(elevation.footHeight());
   if (is_fresh_ || std::fabs(foot_z - reference_z_) > kReferenceReach_m) reference_z_ = foot_z;
   is_fresh_ = false;
-  last_first_ = elevation.grid().first();
   unwrap(elevation);
-  markAll();
-  computeMarked(elevation.grid());
+  const int end = side_ - margin_;
+  const CellRect everything{margin_, margin_, end, end};
+  computeShapes(everything, elevation.grid());
+  findDrops(everything, elevation.grid());
+  last_first_ = elevation.grid().first();
+  noted_.clear();
+  noted_everywhere_ = false;
 }
 
 void Traversability::unwrap(const ElevationMap& elevation) {
@@ -96,103 +159,91 @@ void Traversability::unwrap(const ElevationMap& elevation) {
     }
 }
 
-void Traversability::markAll() {
-  const int tiles = (side_ + kTile - 1) / kTile;
-  marked_.assign(static_cast<std::size_t>(tiles) * tiles, 1);
-}
-
-void Traversability::markEntered(const CellIndex& shift) {
-  if (shift.cwiseAbs().maxCoeff() >= side_) return markAll();
-  const int tiles = (side_ + kTile - 1) / kTile;
+void Traversability::markEntered(const CellIndex& shift, Marks& marks) const {
+  const int tiles = tilesOf(side_);
   const auto hasEntered = [&](int tile, int moved) {
     const int begin = tile * kTile;
-    const int end = begin + kTile;
-    if (moved > 0) return end > side_ - margin_ - moved;
+    if (moved > 0) return begin + kTile > side_ - margin_ - moved;
     return moved < 0 && begin < margin_ - moved;
   };
   for (int y = 0; y < tiles; ++y)
     for (int x = 0; x < tiles; ++x)
       if (hasEntered(x, shift.x()) || hasEntered(y, shift.y()))
-        marked_[static_cast<std::size_t>(y * tiles + x)] = 1;
+        marks[static_cast<std::size_t>(y * tiles + x)] = 1;
 }
 
-void Traversability::markAround(const std::vector<CellIndex>& cells, const CellIndex& first) {
+void Traversability::markAround(const CellIndex& first, int reach, Marks& marks) const {
   struct Extent {
     CellIndex min = CellIndex::Constant(1 << 20);
     CellIndex max = CellIndex::Constant(-(1 << 20));
   };
-  const int tiles = (side_ + kTile - 1) / kTile;
-  std::vector<Extent> extents(static_cast<std::size_t>(tiles) * tiles);
-  for (const CellIndex& cell : cells) {
+  const int tiles = tilesOf(side_);
+  std::vector<Extent> extents(marks.size());
+  for (const CellIndex& cell : noted_) {
     const CellIndex at = cell - first;
+    if ((at.array() < 0).any() || (at.array() >= side_).any()) continue;
     Extent& extent = extents[static_cast<std::size_t>(at.y() / kTile * tiles + at.x() / kTile)];
     extent.min = extent.min.cwiseMin(at);
     extent.max = extent.max.cwiseMax(at);
   }
   for (const Extent& extent : extents) {
     if (extent.min.x() > extent.max.x()) continue;
-    const CellIndex low = (extent.min.array() - margin_).cwiseMax(0) / kTile;
-    const CellIndex high = (extent.max.array() + margin_).cwiseMin(side_ - 1) / kTile;
+    const CellIndex low = (extent.min.array() - reach).cwiseMax(0) / kTile;
+    const CellIndex high = (extent.max.array() + reach).cwiseMin(side_ - 1) / kTile;
     for (int y = low.y(); y <= high.y(); ++y)
-      for (int x = low.x(); x <= high.x(); ++x)
-        marked_[static_cast<std::size_t>(y * tiles + x)] = 1;
+      for (int x = low.x(); x <= high.x(); ++x) marks[static_cast<std::size_t>(y * tiles + x)] = 1;
   }
 }
 
-void Traversability::computeMarked(const WindowGrid& grid) {
-  const int tiles = (side_ + kTile - 1) / kTile;
+std::vector<CellRect> Traversability::rectsOf(const Marks& marks) const {
+  const int tiles = tilesOf(side_);
   const auto clamped = [&](int cell) { return std::clamp(cell, margin_, side_ - margin_); };
+  const auto marked = std::count(marks.begin(), marks.end(), 1);
+  if (static_cast<std::size_t>(2 * marked) > marks.size())
+    return {{margin_, margin_, side_ - margin_, side_ - margin_}};
+  std::vector<CellRect> rects;
   for (int y = 0; y < tiles; ++y)
     for (int x = 0; x < tiles; ++x) {
       const int begin = x;
-      while (x < tiles && marked_[static_cast<std::size_t>(y * tiles + x)] != 0) ++x;
+      while (x < tiles && marks[static_cast<std::size_t>(y * tiles + x)] != 0) ++x;
       const CellRect rect{clamped(begin * kTile), clamped(y * kTile), clamped(x * kTile),
                           clamped((y + 1) * kTile)};
-      if (rect.x_begin >= rect.x_end || rect.y_begin >= rect.y_end) continue;
-      fitPlanes(rect);
-      measureExtremes(rect);
-      store(rect, grid);
-      findDrops(rect, grid);
+      if (rect.x_begin < rect.x_end && rect.y_begin < rect.y_end) rects.push_back(rect);
     }
+  return rects;
 }
 
-void Traversability::measureExtremes(const CellRect& rect) {
-  const CellRect around = rect.grown(drop_cells_);
-  slidingMin(low_, side_, around, step_cells_, scratch_, lowest_);
-  slidingMax(high_, side_, around, step_cells_, scratch_, highest_);
+void Traversability::computeShapes(const CellRect& rect, const WindowGrid& grid) {
+  fitPlanes(rect);
+  slidingMin(low_, side_, rect, step_cells_, scratch_, lowest_);
+  slidingMax(high_, side_, rect, step_cells_, scratch_, highest_);
+  rate(rect, grid);
 }
 
-void Traversability::store(const CellRect& rect, const WindowGrid& grid) {
-  const auto slope_limit = static_cast<float>(std::tan(params_.slope_limit_deg * M_PI / 180.0));
-  const auto step_limit = static_cast<float>(params_.step_limit_m);
-  const auto roughness_limit = static_cast<float>(params_.roughness_limit_m);
-  const double weights = params_.slope_weight + params_.step_weight + params_.roughness_weight;
-  const auto slope_weight = static_cast<float>(params_.slope_weight / weights);
-  const auto step_weight = static_cast<float>(params_.step_weight / weights);
-  const auto roughness_weight = static_cast<float>(params_.roughness_weight / weights);
-  const auto value_min = static_cast<float>(params_.value_min);
+void Traversability::rate(const CellRect& rect, const WindowGrid& grid) {
+  const Rating rating(params_);
   for (int y = rect.y_begin; y < rect.y_end; ++y)
     for (int x = rect.x_begin; x < rect.x_end; ++x) {
       const auto cell = static_cast<std::size_t>(y * side_ + x);
+      if (known_[cell] == 0.0F) continue;  // for findDrops
+      const std::size_t slot = grid.slotOf(grid.first().x() + x, grid.first().y() + y);
+      const float step = highest_[cell] - lowest_[cell];
+      layers_.slope[slot] = slope_[cell];
+      layers_.step_m[slot] = step;
+      layers_.roughness_m[slot] = roughness_[cell];
+      const Rating::Result result = rating.of(slope_[cell], step, roughness_[cell]);
+      layers_.value[slot] = result.value;
+      layers_.ground_class[slot] = result.ground_class;
+    }
+}
+
+void Traversability::forgetUnknown(const CellRect& rect, const WindowGrid& grid) {
+  for (int y = rect.y_begin; y < rect.y_end; ++y)
+    for (int x = rect.x_begin; x < rect.x_end; ++x) {
+      if (known_[static_cast<std::size_t>(y * side_ + x)] != 0.0F) continue;
       const std::size_t slot = grid.slotOf(grid.first().x() + x, grid.first().y() + y);
       layers_.ground_class[slot] = GroundClass::kUnknown;
-      layers_.value[slot] = std::numeric_limits<float>::quiet_NaN();
-      if (known_[cell] == 0.0F || slope_[cell] < 0.0F) continue;
-      layers_.slope[slot] = slope_[cell];
-      layers_.step_m[slot] = highest_[cell] - lowest_[cell];
-      layers_.roughness_m[slot] = roughness_[cell];
-      const float slope = slope_[cell] / slope_limit;
-      const float step = (highest_[cell] - lowest_[cell]) / step_limit;
-      const float roughness = roughness_[cell] / roughness_limit;
-      const float worst = std::max({slope, step, roughness});
-      const float value =
-          1.0F - slope_weight * slope - step_weight * step - roughness_weight * roughness;
-      const bool is_good = worst <= 1.0F && value >= value_min;
-      layers_.value[slot] = worst <= 1.0F ? std::max(0.0F, value) : 0.0F;
-      layers_.ground_class[slot] = is_good          ? GroundClass::kTraversable
-                                   : slope == worst ? GroundClass::kTooSteep
-                                   : step == worst  ? GroundClass::kStep
-                                                    : GroundClass::kTooRough;
+      layers_.value[slot] = kNoValue;
     }
 }
 
@@ -202,8 +253,11 @@ void Traversability::findDrops(const CellRect& rect, const WindowGrid& grid) {
   const auto fall = static_cast<float>(std::tan(params_.drop_slope_deg * M_PI / 180.0));
   // The parabola whose fall plus the margin is nowhere less than the straight slope's.
   const float curvature = fall * fall / (4.0F * margin) * cell_m_ * cell_m_;
-  if (!anyBelow(bound_, known_, lowest_, side_, rect, drop_cells_, margin)) return;
+  forgetUnknown(rect, grid);
+  if (!anyBelow(bound_, known_, height_, side_, rect, drop_cells_, margin)) return;
   const CellRect around = rect.grown(drop_cells_);
+  slidingMin(low_, side_, around, step_cells_, scratch_, lowest_);
+  slidingMax(high_, side_, around, step_cells_, scratch_, highest_);
   for (int y = around.y_begin; y < around.y_end; ++y)
     for (int x = around.x_begin; x < around.x_end; ++x) {
       const auto cell = static_cast<std::size_t>(y * side_ + x);

@@ -1,11 +1,15 @@
 #pragma once
 
+#include <cstddef>
 #include <vector>
 
 namespace spelunk::terrain {
 
 /// Stands for nothing known in minima; negative in maxima. Finite, so that sums stay numbers.
 constexpr float kVeryHigh = 1e6F;
+
+/// Cells worked on at a time; layers are readable and writable so many cells beyond their end.
+constexpr int kLanes = 4;
 
 /// Cells [begin, end) of a square layer.
 struct CellRect {

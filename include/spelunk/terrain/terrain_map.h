@@ -40,23 +40,23 @@ class TerrainMap {
   /// Where the robot stands is ground, seen or not: for the start, and for robots without a camera.
   void assumeGroundUnder(const Eigen::Isometry3d& T_world_base);
 
-  /// An immutable view; the same one until the map changes.
-  [[nodiscard]] std::shared_ptr<const TerrainView> freeze() const;
-  [[nodiscard]] PathGroundCheck checkPath(const Path& path) const;
-  [[nodiscard]] std::optional<double> groundHeight(const Eigen::Vector2d& xy) const {
+  /// An immutable view with the traversability brought up to date; the same one until the map
+  /// changes.
+  [[nodiscard]] std::shared_ptr<const TerrainView> freeze();
+  [[nodiscard]] PathGroundCheck checkPath(const Path& path);
+  [[nodiscard]] std::optional<double> groundHeight(const Eigen::Vector2d& xy) {
     return freeze()->groundHeight(xy);
   }
 
   [[nodiscard]] const TerrainParams& params() const { return params_; }
   [[nodiscard]] const ElevationMap& elevation() const { return elevation_; }
-  [[nodiscard]] const Traversability& traversability() const { return traversability_; }
   void clear();
 
  private:
   TerrainParams params_;
   ElevationMap elevation_;
   Traversability traversability_;
-  mutable std::shared_ptr<const TerrainView> view_;  ///< Of the map as it is; empty if not made.
+  std::shared_ptr<const TerrainView> view_;  ///< Of the map as it is; empty if not made.
 };
 
 }  // namespace spelunk::terrain

@@ -104,8 +104,10 @@ class Traversability {
   [[nodiscard]] static int marginOf(const TraversabilityParams& params, double cell_m);
   [[nodiscard]] int margin() const { return margin_; }
 
-  /// Recomputes what ElevationMap::changed() and the motion of its window can have touched. Call
-  /// after every call that changed the map.
+  /// Notes what changed in the map. Call after every call that changed it.
+  void note(const ElevationMap& elevation);
+  /// Recomputes what has been noted since the last update, and what the motion of the window
+  /// brought in.
   void update(const ElevationMap& elevation);
   /// Recomputes everything: the same values bit by bit.
   void updateAll(const ElevationMap& elevation);
@@ -114,16 +116,17 @@ class Traversability {
   [[nodiscard]] const TraversabilityParams& params() const { return params_; }
 
  private:
+  using Marks = std::vector<std::uint8_t>;
   void unwrap(const ElevationMap& elevation);
-  void markAll();
-  void markEntered(const CellIndex& shift);
-  void markAround(const std::vector<CellIndex>& cells, const CellIndex& first);
-  void computeMarked(const WindowGrid& grid);
+  void markEntered(const CellIndex& shift, Marks& marks) const;
+  void markAround(const CellIndex& first, int reach, Marks& marks) const;
+  [[nodiscard]] std::vector<CellRect> rectsOf(const Marks& marks) const;
+  void computeShapes(const CellRect& rect, const WindowGrid& grid);
   void fitPlanes(const CellRect& rect);
-  void sumRows(const CellRect& rect);
-  void solveRow(const CellRect& rect, int y);
-  void measureExtremes(const CellRect& rect);
-  void store(const CellRect& rect, const WindowGrid& grid);
+  void sumRow(std::size_t cell);
+  void solve(std::size_t cell);
+  void rate(const CellRect& rect, const WindowGrid& grid);
+  void forgetUnknown(const CellRect& rect, const WindowGrid& grid);
   void findDrops(const CellRect& rect, const WindowGrid& grid);
 
   TraversabilityParams params_;
@@ -137,7 +140,8 @@ class Traversability {
   CellIndex last_first_ = CellIndex::Zero();
   bool is_fresh_ = true;  ///< Nothing was computed yet.
   float reference_z_ = 0.0F;
-  std::vector<std::uint8_t> marked_;  ///< Tiles to recompute.
+  std::vector<CellIndex> noted_;  ///< Cells that changed since the last update.
+  bool noted_everywhere_ = false;
 
   // Working memory, by y * side + x; heights from reference_z_.
   std::vector<float> known_;   ///< 1 or 0.
