@@ -184,20 +184,23 @@ void ElevationMap::fuseCells(const Eigen::Vector3f& sensor, float stamp, Elevati
 void ElevationMap::lowerBounds(const Eigen::Vector3f& sensor) {
   const auto cell_m = static_cast<float>(params_.cell_m);
   const RayFan& rays = scan_cells_->rays();
-  for (int y = 0; y < grid_.side(); ++y)
-    for (int x = 0; x < grid_.side(); ++x) {
-      const CellIndex cell(grid_.first().x() + x, grid_.first().y() + y);
+  const auto side = static_cast<std::size_t>(grid_.side());
+  RayFan::Row row{std::vector<float>(side), std::vector<std::uint32_t>(side)};
+  for (int y = 0; y < grid_.side(); ++y) {
+    rays.locate(0.5F * cell_m - sensor.x(), cell_m,
+                (static_cast<float>(y) + 0.5F) * cell_m - sensor.y(), row);
+    for (std::size_t x = 0; x < side; ++x) {
+      const CellIndex cell = grid_.first() + CellIndex(static_cast<int>(x), y);
       const std::size_t slot = grid_.slotOf(cell);
       if (!std::isnan(height_[slot])) continue;
-      const Eigen::Vector2f place((static_cast<float>(x) + 0.5F) * cell_m - sensor.x(),
-                                  (static_cast<float>(y) + 0.5F) * cell_m - sensor.y());
-      const float steepest = rays.steepestBeyond(place);
+      const float steepest = rays.steepestBeyond(row, x);
       if (steepest == 0.0F) continue;
-      const float bound = sensor.z() - steepest * place.norm();
+      const float bound = sensor.z() - steepest * row.distance[x];
       if (bound >= bound_[slot] - kNews_m) continue;
       bound_[slot] = bound;
       changed_.push_back(cell);
     }
+  }
 }
 
 void ElevationMap::assumeGroundUnder(const Eigen::Isometry3d& T_world_base) {

@@ -23,26 +23,13 @@ void put(const Lanes& lanes, std::vector<float>& layer, std::size_t cell) {
   Eigen::Map<Lanes>(layer.data() + cell) = lanes;
 }
 
-/// Sums over a window, x and y in cells from its middle.
-struct WindowSums {
-  Lanes n = Lanes::Zero();
-  Lanes x = Lanes::Zero();
-  Lanes y = Lanes::Zero();
-  Lanes xx = Lanes::Zero();
-  Lanes xy = Lanes::Zero();
-  Lanes yy = Lanes::Zero();
-  Lanes z = Lanes::Zero();
-  Lanes xz = Lanes::Zero();
-  Lanes yz = Lanes::Zero();
-  Lanes zz = Lanes::Zero();
-};
-
 struct Planes {
   Lanes slope;  ///< Tangent with heights and cells in one unit; negative if there is no plane.
   Lanes roughness;
 };
 
 /// Least squares; the cells must not lie on a line.
+template <class WindowSums>
 Planes planesOf(const WindowSums& s, float least_variance) {
   const Lanes n = s.n.max(1.0F);
   const Lanes xx = s.xx - s.x * s.x / n;
@@ -63,6 +50,20 @@ Planes planesOf(const WindowSums& s, float least_variance) {
 }
 
 }  // namespace
+
+/// Sums over a window, x and y in cells from its middle.
+struct Traversability::WindowSums {
+  Lanes n = Lanes::Zero();
+  Lanes x = Lanes::Zero();
+  Lanes y = Lanes::Zero();
+  Lanes xx = Lanes::Zero();
+  Lanes xy = Lanes::Zero();
+  Lanes yy = Lanes::Zero();
+  Lanes z = Lanes::Zero();
+  Lanes xz = Lanes::Zero();
+  Lanes yz = Lanes::Zero();
+  Lanes zz = Lanes::Zero();
+};
 
 void Traversability::fitPlanes(const CellRect& rect) {
   for (int y = rect.y_begin - plane_cells_; y < rect.y_end + plane_cells_; ++y)
@@ -99,27 +100,40 @@ void Traversability::sumRow(std::size_t cell) {
   put(zz, row_sums_[kZZ], cell);
 }
 
-void Traversability::solve(std::size_t cell) {
-  const float full = static_cast<float>(2 * plane_cells_ + 1);
-  const float least_variance = kLeastSpread * kLeastSpread * full * full / 12.0F;
-  WindowSums s;
+void Traversability::addPlaces(std::size_t cell, WindowSums& s) const {
   for (int d = -plane_cells_; d <= plane_cells_; ++d) {
     const std::size_t row = cell + static_cast<std::size_t>(d * side_);
     const auto offset = static_cast<float>(d);
     const Lanes n = at(row_sums_[kN], row);
     const Lanes x = at(row_sums_[kX], row);
-    const Lanes z = at(row_sums_[kZ], row);
-    s.n += n;
     s.y += offset * n;
     s.yy += offset * offset * n;
     s.x += x;
     s.xy += offset * x;
     s.xx += at(row_sums_[kXX], row);
+  }
+}
+
+void Traversability::solve(std::size_t cell) {
+  if ((at(known_, cell) == 0.0F).all()) return;
+  const float full = static_cast<float>(2 * plane_cells_ + 1);
+  WindowSums s;
+  for (int d = -plane_cells_; d <= plane_cells_; ++d) {
+    const std::size_t row = cell + static_cast<std::size_t>(d * side_);
+    const Lanes z = at(row_sums_[kZ], row);
+    s.n += at(row_sums_[kN], row);
     s.z += z;
-    s.yz += offset * z;
+    s.yz += static_cast<float>(d) * z;
     s.xz += at(row_sums_[kXZ], row);
     s.zz += at(row_sums_[kZZ], row);
   }
+  if ((s.n == full * full).all()) {  // whole numbers: the sums below, exactly
+    const auto k = static_cast<float>(plane_cells_);
+    s.xx = s.yy = Lanes::Constant(full * full * k * (k + 1.0F) / 3.0F);
+  } else {
+    addPlaces(cell, s);
+  }
+  const float least_variance = kLeastSpread * kLeastSpread * full * full / 12.0F;
   const Planes planes = planesOf(s, least_variance);
   put((planes.slope < 0.0F).select(planes.slope, planes.slope / cell_m_), slope_, cell);
   put(planes.roughness, roughness_, cell);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstdint>
 #include <vector>
 
 namespace spelunk::terrain {
@@ -21,16 +22,24 @@ class RayFan {
   /// To be called after the last add and before the first steepestBeyond.
   void finish();
 
-  /// How much the steepest ray falls a metre that passes over the ring of a place (relative to the
-  /// sensor) and ends beyond it; 0 if none does.
-  [[nodiscard]] float steepestBeyond(const Eigen::Vector2f& place) const;
+  /// A row of places at the same y, relative to the sensor.
+  struct Row {
+    std::vector<float> distance;
+    std::vector<std::uint32_t> index;  ///< Of the sector and ring.
+  };
+  /// Fills `row` for the places (x_first + i * x_step, y).
+  void locate(float x_first, float x_step, float y, Row& row) const;
+
+  /// How much the steepest ray falls a metre that passes over the ring of place i and ends beyond
+  /// it; 0 if none does.
+  [[nodiscard]] float steepestBeyond(const Row& row, std::size_t i) const {
+    return steepest_[row.index[i]];
+  }
 
  private:
-  [[nodiscard]] std::size_t indexOf(const Eigen::Vector2f& place, float distance) const;
-
   float rings_per_m_;
   int rings_;
-  std::vector<float> steepest_;  ///< By sector * rings + ring.
+  std::vector<float> steepest_;  ///< By ring * sectors + sector.
 };
 
 }  // namespace spelunk::terrain

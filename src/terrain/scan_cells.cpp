@@ -23,33 +23,53 @@ ScanCells::ScanCells(const ElevationParams& params, const WindowGrid& grid)
       clearance_m_(static_cast<float>(params.clearance_m)),
       climb_(static_cast<float>(std::tan(params.climb_deg * M_PI / 180.0))),
       half_body_m_(0.5F * params.body_m.cast<float>()),
+      open_(kEmpty),
       stacks_(static_cast<std::size_t>(side_) * side_, kEmpty),
       rays_(params.cell_m, 1.7 * params.reach_m) {}
 
-/// Points of a block in the window's frame, coordinate by coordinate for the vectoriser.
+/// Points of a block in the window's frame.
 struct ScanCells::Block {
   std::array<float, kBlock> x;
   std::array<float, kBlock> y;
   std::array<float, kBlock> z;
-  std::array<float, kBlock> distance;  ///< From the base, level.
-
-  Block(const Eigen::Vector3f* points, std::size_t count, const WindowFrame& frame) {
-    const Eigen::Matrix3f r = frame.R_window_sensor;
-    const Eigen::Vector3f t = frame.sensor;
-    const Eigen::Vector3f base = frame.base;
-    for (std::size_t i = 0; i < count; ++i) {
-      const float px = points[i].x();
-      const float py = points[i].y();
-      const float pz = points[i].z();
-      x[i] = r(0, 0) * px + r(0, 1) * py + r(0, 2) * pz + t.x();
-      y[i] = r(1, 0) * px + r(1, 1) * py + r(1, 2) * pz + t.y();
-      z[i] = r(2, 0) * px + r(2, 1) * py + r(2, 2) * pz + t.z();
-      const float dx = x[i] - base.x();
-      const float dy = y[i] - base.y();
-      distance[i] = std::sqrt(dx * dx + dy * dy);
-    }
-  }
+  std::array<std::int32_t, kBlock> cell;
+  std::array<std::int32_t, kBlock> is_plain;  ///< In the window, not high, not near the body.
 };
+
+/// Coordinate by coordinate and without branches, for the vectoriser.
+void ScanCells::fill(const float* __restrict points, std::size_t count, const WindowFrame& frame,
+                     Block& __restrict block) const {
+  const Eigen::Matrix3f r = frame.R_window_sensor;
+  const Eigen::Vector3f t = frame.sensor;
+  const Eigen::Vector3f base = frame.base;
+  const float high = frame.foot_z + clearance_m_;
+  const float climb = climb_;
+  const float extent = static_cast<float>(side_) * cell_m_;
+  const float per_cell = 1.0F / cell_m_;
+  const int side = side_;
+  const float body_radius = half_body_m_.norm();
+  for (std::size_t i = 0; i < count; ++i) {
+    const float px = points[3 * i];
+    const float py = points[3 * i + 1];
+    const float pz = points[3 * i + 2];
+    const float x = r(0, 0) * px + r(0, 1) * py + r(0, 2) * pz + t.x();
+    const float y = r(1, 0) * px + r(1, 1) * py + r(1, 2) * pz + t.y();
+    const float z = r(2, 0) * px + r(2, 1) * py + r(2, 2) * pz + t.z();
+    const float dx = x - base.x();
+    const float dy = y - base.y();
+    const float distance = std::sqrt(dx * dx + dy * dy);
+    const bool is_plain = (x >= 0.0F) & (x < extent) & (y >= 0.0F) & (y < extent) &
+                          (z > -kFarthest_m) & (z <= high + climb * distance) &
+                          (distance >= body_radius);
+    const int column = std::min(static_cast<int>(is_plain ? x * per_cell : 0.0F), side - 1);
+    const int row = std::min(static_cast<int>(is_plain ? y * per_cell : 0.0F), side - 1);
+    block.x[i] = x;
+    block.y[i] = y;
+    block.z[i] = z;
+    block.cell[i] = row * side + column;
+    block.is_plain[i] = is_plain ? 1 : 0;
+  }
+}
 
 void ScanCells::collect(const std::vector<Eigen::Vector3f>& points, const WindowFrame& frame,
                         const WindowGrid& grid, const std::vector<float>& heights,
@@ -63,6 +83,9 @@ void ScanCells::collect(const std::vector<Eigen::Vector3f>& points, const Window
   update.points = static_cast<int>(points.size());
   for (std::size_t i = 0; i < points.size(); i += kBlock)
     sortBlock(points.data() + i, std::min(kBlock, points.size() - i), frame, update);
+  stacks_[open_cell_] = open_;
+  open_ = kEmpty;
+  open_cell_ = 0;
   cutTallStacks(update);
   measure(frame, grid, heights, update);
   rays_.finish();
@@ -70,49 +93,58 @@ void ScanCells::collect(const std::vector<Eigen::Vector3f>& points, const Window
 
 void ScanCells::sortBlock(const Eigen::Vector3f* points, std::size_t count,
                           const WindowFrame& frame, ElevationUpdate& update) {
-  const Block block(points, count, frame);
-  const float extent = static_cast<float>(side_) * cell_m_;
-  const float body_radius = half_body_m_.norm();
+  Block block;
+  fill(points->data(), count, frame, block);
   for (std::size_t i = 0; i < count; ++i) {
-    const float x = block.x[i];
-    const float y = block.y[i];
-    const float z = block.z[i];
-    if (x >= 0.0F && x < extent && y >= 0.0F && y < extent && std::fabs(z) < kFarthest_m) {
-      if (block.distance[i] < body_radius &&
-          ((frame.T_base_window * Eigen::Vector3f(x, y, z)).array().abs() <= half_body_m_.array())
-              .all())
-        ++update.dropped_self;
-      else
-        place(block, i, frame, update);
-    } else if (std::fabs(x) + std::fabs(y) + std::fabs(z) < kFarthest_m) {
-      ++update.dropped_outside;
-      rays_.add(Eigen::Vector3f(x, y, z) - frame.sensor);
-    } else {
-      ++update.dropped_not_finite;
-    }
+    if (block.is_plain[i] != 0)
+      place(static_cast<std::uint32_t>(block.cell[i]), block.z[i]);
+    else
+      placeOdd({block.x[i], block.y[i], block.z[i]}, frame, update);
   }
 }
 
-void ScanCells::place(const Block& block, std::size_t i, const WindowFrame& frame,
-                      ElevationUpdate& update) {
-  const float z = block.z[i];
-  if (z > frame.foot_z + clearance_m_ + climb_ * block.distance[i]) {
-    ++update.dropped_high;
-    return;
-  }
-  const float per_cell = 1.0F / cell_m_;
-  const int column = std::min(static_cast<int>(block.x[i] * per_cell), side_ - 1);
-  const int row = std::min(static_cast<int>(block.y[i] * per_cell), side_ - 1);
-  const auto cell = static_cast<std::uint32_t>(row * side_ + column);
-  Stack& stack = stacks_[cell];
-  if (stack.count == 0) touched_.push_back(cell);
-  stack.lowest = std::min(stack.lowest, z);
-  stack.highest = std::max(stack.highest, z);
-  stack.sum += z;
-  ++stack.count;
+void ScanCells::place(std::uint32_t cell, float z) {
   cells_[used_] = cell;
   heights_[used_] = z;
   ++used_;
+  if (cell != open_cell_) openStack(cell);
+  open_.lowest = std::min(open_.lowest, z);
+  open_.highest = std::max(open_.highest, z);
+  open_.sum += z;
+  ++open_.count;
+}
+
+void ScanCells::openStack(std::uint32_t cell) {
+  stacks_[open_cell_] = open_;
+  open_cell_ = cell;
+  open_ = stacks_[cell];
+  if (open_.count == 0) touched_.push_back(cell);
+}
+
+void ScanCells::placeOdd(const Eigen::Vector3f& point, const WindowFrame& frame,
+                         ElevationUpdate& update) {
+  const float extent = static_cast<float>(side_) * cell_m_;
+  if (!(point.cwiseAbs().maxCoeff() < kFarthest_m) || !point.allFinite()) {
+    ++update.dropped_not_finite;
+    return;
+  }
+  if (!((point.head<2>().array() >= 0.0F).all() && (point.head<2>().array() < extent).all())) {
+    ++update.dropped_outside;
+    rays_.add(point - frame.sensor);
+    return;
+  }
+  if (((frame.T_base_window * point).array().abs() <= half_body_m_.array()).all()) {
+    ++update.dropped_self;
+    return;
+  }
+  const float distance = (point - frame.base).head<2>().norm();
+  if (point.z() > frame.foot_z + clearance_m_ + climb_ * distance) {
+    ++update.dropped_high;
+    return;
+  }
+  const int column = std::min(static_cast<int>(point.x() / cell_m_), side_ - 1);
+  const int row = std::min(static_cast<int>(point.y() / cell_m_), side_ - 1);
+  place(static_cast<std::uint32_t>(row * side_ + column), point.z());
 }
 
 void ScanCells::cutTallStacks(ElevationUpdate& update) {

@@ -53,7 +53,11 @@ class ScanCells {
   struct Block;
   void sortBlock(const Eigen::Vector3f* points, std::size_t count, const WindowFrame& frame,
                  ElevationUpdate& update);
-  void place(const Block& block, std::size_t i, const WindowFrame& frame, ElevationUpdate& update);
+  void fill(const float* __restrict points, std::size_t count, const WindowFrame& frame,
+            Block& __restrict block) const;
+  void place(std::uint32_t cell, float z);
+  void placeOdd(const Eigen::Vector3f& point, const WindowFrame& frame, ElevationUpdate& update);
+  void openStack(std::uint32_t cell);
   void cutTallStacks(ElevationUpdate& update);
   void measure(const WindowFrame& frame, const WindowGrid& grid, const std::vector<float>& heights,
                ElevationUpdate& update);
@@ -63,6 +67,8 @@ class ScanCells {
   float clearance_m_;
   float climb_;  ///< Rise a metre.
   Eigen::Vector3f half_body_m_;
+  std::uint32_t open_cell_ = 0;  ///< Neighbours in a scan often share a cell: it is kept apart.
+  Stack open_;
   std::vector<Stack> stacks_;           ///< By y * side + x; empty between calls.
   std::vector<std::uint32_t> touched_;  ///< Stacks in use.
   std::size_t used_ = 0;                ///< Of the two below: the points in the window.

@@ -96,7 +96,7 @@ Traversability::Traversability(const TraversabilityParams& params, const WindowG
   layers_.ground_class.assign(slots, GroundClass::kUnknown);
   const std::size_t cells = static_cast<std::size_t>(side_) * side_ + kLanes;
   for (auto* layer : {&known_, &height_, &low_, &high_, &bound_, &slope_, &roughness_, &lowest_,
-                      &highest_, &fall_, &floor_, &scratch_})
+                      &highest_, &upper_, &lower_, &fall_, &floor_, &scratch_})
     layer->resize(cells);
   for (auto& sums : row_sums_) sums.resize(cells);
 }
@@ -157,6 +157,13 @@ void Traversability::unwrap(const ElevationMap& elevation) {
       high_[cell] = is_known ? height : -kVeryHigh;
       bound_[cell] = bounds[slot] - reference_z_;
     }
+  const CellRect inner = CellRect{0, 0, side_, side_}.grown(-step_cells_);
+  slidingMin(low_, side_, inner, step_cells_, scratch_, lowest_);
+  slidingMax(high_, side_, inner, step_cells_, scratch_, highest_);
+  for (cell = 0; cell < lowest_.size(); ++cell) {
+    upper_[cell] = known_[cell] != 0.0F ? lowest_[cell] : -kVeryHigh;
+    lower_[cell] = known_[cell] != 0.0F ? highest_[cell] : kVeryHigh;
+  }
 }
 
 void Traversability::markEntered(const CellIndex& shift, Marks& marks) const {
@@ -215,8 +222,6 @@ std::vector<CellRect> Traversability::rectsOf(const Marks& marks) const {
 
 void Traversability::computeShapes(const CellRect& rect, const WindowGrid& grid) {
   fitPlanes(rect);
-  slidingMin(low_, side_, rect, step_cells_, scratch_, lowest_);
-  slidingMax(high_, side_, rect, step_cells_, scratch_, highest_);
   rate(rect, grid);
 }
 
@@ -248,25 +253,24 @@ void Traversability::forgetUnknown(const CellRect& rect, const WindowGrid& grid)
 }
 
 void Traversability::findDrops(const CellRect& rect, const WindowGrid& grid) {
+  forgetUnknown(rect, grid);
+  const auto margin = static_cast<float>(params_.drop_margin_m);
+  for (int y = rect.y_begin; y < rect.y_end; y += kTile)
+    for (int x = rect.x_begin; x < rect.x_end; x += kTile) {
+      const CellRect tile{x, y, std::min(x + kTile, rect.x_end), std::min(y + kTile, rect.y_end)};
+      if (anyBelow(bound_, known_, upper_, side_, tile, drop_cells_, margin))
+        judgeUnknown(tile, grid);
+    }
+}
+
+void Traversability::judgeUnknown(const CellRect& rect, const WindowGrid& grid) {
   const auto margin = static_cast<float>(params_.drop_margin_m);
   const auto step_limit = static_cast<float>(params_.step_limit_m);
   const auto fall = static_cast<float>(std::tan(params_.drop_slope_deg * M_PI / 180.0));
   // The parabola whose fall plus the margin is nowhere less than the straight slope's.
   const float curvature = fall * fall / (4.0F * margin) * cell_m_ * cell_m_;
-  forgetUnknown(rect, grid);
-  if (!anyBelow(bound_, known_, height_, side_, rect, drop_cells_, margin)) return;
-  const CellRect around = rect.grown(drop_cells_);
-  slidingMin(low_, side_, around, step_cells_, scratch_, lowest_);
-  slidingMax(high_, side_, around, step_cells_, scratch_, highest_);
-  for (int y = around.y_begin; y < around.y_end; ++y)
-    for (int x = around.x_begin; x < around.x_end; ++x) {
-      const auto cell = static_cast<std::size_t>(y * side_ + x);
-      if (known_[cell] != 0.0F) continue;
-      lowest_[cell] = -kVeryHigh;
-      highest_[cell] = kVeryHigh;
-    }
-  slidingParabola(lowest_, side_, rect, drop_cells_, curvature, scratch_, fall_);
-  slidingMin(highest_, side_, rect, drop_cells_, scratch_, floor_);
+  slidingParabola(upper_, side_, rect, drop_cells_, curvature, scratch_, fall_);
+  slidingMin(lower_, side_, rect, drop_cells_, scratch_, floor_);
   for (int y = rect.y_begin; y < rect.y_end; ++y)
     for (int x = rect.x_begin; x < rect.x_end; ++x) {
       const auto cell = static_cast<std::size_t>(y * side_ + x);

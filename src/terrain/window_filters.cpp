@@ -55,19 +55,19 @@ void slidingParabola(const std::vector<float>& in, int side, const CellRect& rec
 bool anyBelow(const std::vector<float>& bound, const std::vector<float>& known,
               const std::vector<float>& ground, int side, const CellRect& rect, int reach,
               float margin) {
-  const CellRect around = rect.grown(reach);
-  float top = -kVeryHigh;
-  for (int y = around.y_begin; y < around.y_end; ++y)
-    for (int x = around.x_begin; x < around.x_end; ++x) {
-      const auto cell = static_cast<std::size_t>(y * side + x);
-      top = std::max(top, known[cell] != 0.0F ? ground[cell] : -kVeryHigh);
-    }
+  float least = kVeryHigh;
   for (int y = rect.y_begin; y < rect.y_end; ++y)
     for (int x = rect.x_begin; x < rect.x_end; ++x) {
       const auto cell = static_cast<std::size_t>(y * side + x);
-      if (known[cell] == 0.0F && bound[cell] < top - margin) return true;
+      least = std::min(least, known[cell] == 0.0F ? bound[cell] : kVeryHigh);
     }
-  return false;
+  if (least >= kVeryHigh) return false;
+  const CellRect around = rect.grown(reach);
+  float top = -kVeryHigh;
+  for (int y = around.y_begin; y < around.y_end; ++y)
+    for (int x = around.x_begin; x < around.x_end; ++x)
+      top = std::max(top, ground[static_cast<std::size_t>(y * side + x)]);
+  return least < top - margin;
 }
 
 }  // namespace spelunk::terrain

@@ -33,8 +33,8 @@ void slidingMax(const std::vector<float>& in, int side, const CellRect& rect, in
 void slidingParabola(const std::vector<float>& in, int side, const CellRect& rect, int reach,
                      float curvature, std::vector<float>& rows, std::vector<float>& out);
 
-/// Whether an unknown cell of `rect` has a bound more than `margin` below the highest known entry
-/// of `ground` in the rect grown by `reach`.
+/// Whether an unknown cell of `rect` has a bound more than `margin` below the highest entry of
+/// `ground` in the rect grown by `reach`.
 [[nodiscard]] bool anyBelow(const std::vector<float>& bound, const std::vector<float>& known,
                             const std::vector<float>& ground, int side, const CellRect& rect,
                             int reach, float margin);

@@ -116,6 +116,7 @@ class Traversability {
   [[nodiscard]] const TraversabilityParams& params() const { return params_; }
 
  private:
+  struct WindowSums;
   using Marks = std::vector<std::uint8_t>;
   void unwrap(const ElevationMap& elevation);
   void markEntered(const CellIndex& shift, Marks& marks) const;
@@ -125,9 +126,11 @@ class Traversability {
   void fitPlanes(const CellRect& rect);
   void sumRow(std::size_t cell);
   void solve(std::size_t cell);
+  void addPlaces(std::size_t cell, WindowSums& sums) const;
   void rate(const CellRect& rect, const WindowGrid& grid);
   void forgetUnknown(const CellRect& rect, const WindowGrid& grid);
   void findDrops(const CellRect& rect, const WindowGrid& grid);
+  void judgeUnknown(const CellRect& rect, const WindowGrid& grid);
 
   TraversabilityParams params_;
   float cell_m_;
@@ -152,10 +155,12 @@ class Traversability {
   std::array<std::vector<float>, 6> row_sums_;
   std::vector<float> slope_;  ///< Negative where no plane could be fitted.
   std::vector<float> roughness_;
-  std::vector<float> lowest_;
-  std::vector<float> highest_;
-  std::vector<float> fall_;   ///< How low ground may be by the ground around it.
-  std::vector<float> floor_;  ///< The lowest ground around.
+  std::vector<float> lowest_;   ///< Within a foot's window.
+  std::vector<float> highest_;  ///< The same.
+  std::vector<float> upper_;    ///< lowest_ of known cells, very low elsewhere.
+  std::vector<float> lower_;    ///< highest_ of known cells, very high elsewhere.
+  std::vector<float> fall_;     ///< How low ground may be by the ground around it.
+  std::vector<float> floor_;    ///< The lowest ground around.
   std::vector<float> scratch_;
 };
 
