@@ -1,7 +1,6 @@
 #include "scan_cells.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 
@@ -29,46 +28,35 @@ ScanCells::ScanCells(const ElevationParams& params, const WindowGrid& grid)
 
 /// Points of a block in the window's frame.
 struct ScanCells::Block {
-  std::array<float, kBlock> x;
-  std::array<float, kBlock> y;
-  std::array<float, kBlock> z;
-  std::array<std::int32_t, kBlock> cell;
-  std::array<std::int32_t, kBlock> is_plain;  ///< In the window, not high, not near the body.
+  using Lane = Eigen::Array<float, kBlock, 1>;
+  Lane x;
+  Lane y;
+  Lane z;
+  Lane odd;  ///< At most 0 for points in the window, not high and not near the body.
 };
 
-/// Coordinate by coordinate and without branches, for the vectoriser.
-void ScanCells::fill(const float* __restrict points, std::size_t count, const WindowFrame& frame,
-                     Block& __restrict block) const {
-  const Eigen::Matrix3f r = frame.R_window_sensor;
-  const Eigen::Vector3f t = frame.sensor;
-  const Eigen::Vector3f base = frame.base;
-  const float high = frame.foot_z + clearance_m_;
-  const float climb = climb_;
-  const float extent = static_cast<float>(side_) * cell_m_;
-  const float per_cell = 1.0F / cell_m_;
-  const int side = side_;
-  const float body_radius = half_body_m_.norm();
+void ScanCells::fill(const Eigen::Vector3f* points, std::size_t count, const WindowFrame& frame,
+                     Block& block) const {
+  Block::Lane px = Block::Lane::Zero();
+  Block::Lane py = Block::Lane::Zero();
+  Block::Lane pz = Block::Lane::Zero();
   for (std::size_t i = 0; i < count; ++i) {
-    const float px = points[3 * i];
-    const float py = points[3 * i + 1];
-    const float pz = points[3 * i + 2];
-    const float x = r(0, 0) * px + r(0, 1) * py + r(0, 2) * pz + t.x();
-    const float y = r(1, 0) * px + r(1, 1) * py + r(1, 2) * pz + t.y();
-    const float z = r(2, 0) * px + r(2, 1) * py + r(2, 2) * pz + t.z();
-    const float dx = x - base.x();
-    const float dy = y - base.y();
-    const float distance = std::sqrt(dx * dx + dy * dy);
-    const bool is_plain = (x >= 0.0F) & (x < extent) & (y >= 0.0F) & (y < extent) &
-                          (z > -kFarthest_m) & (z <= high + climb * distance) &
-                          (distance >= body_radius);
-    const int column = std::min(static_cast<int>(is_plain ? x * per_cell : 0.0F), side - 1);
-    const int row = std::min(static_cast<int>(is_plain ? y * per_cell : 0.0F), side - 1);
-    block.x[i] = x;
-    block.y[i] = y;
-    block.z[i] = z;
-    block.cell[i] = row * side + column;
-    block.is_plain[i] = is_plain ? 1 : 0;
+    const auto lane = static_cast<Eigen::Index>(i);
+    px(lane) = points[i].x();
+    py(lane) = points[i].y();
+    pz(lane) = points[i].z();
   }
+  const Eigen::Matrix3f& r = frame.R_window_sensor;
+  block.x = r(0, 0) * px + r(0, 1) * py + r(0, 2) * pz + frame.sensor.x();
+  block.y = r(1, 0) * px + r(1, 1) * py + r(1, 2) * pz + frame.sensor.y();
+  block.z = r(2, 0) * px + r(2, 1) * py + r(2, 2) * pz + frame.sensor.z();
+  const float high = frame.foot_z + clearance_m_;
+  const float extent = static_cast<float>(side_) * cell_m_;
+  const float body_radius = half_body_m_.norm();
+  px = ((block.x - frame.base.x()).square() + (block.y - frame.base.y()).square()).sqrt();
+  py = (block.z - (high + climb_ * px)).max(body_radius - px);
+  pz = (-block.x).max(block.x - extent).max(-block.y).max(block.y - extent);
+  block.odd = py.max(pz) + 0.0F * (block.x + block.y + block.z);  // not finite: not a number
 }
 
 void ScanCells::collect(const std::vector<Eigen::Vector3f>& points, const WindowFrame& frame,
@@ -94,57 +82,51 @@ void ScanCells::collect(const std::vector<Eigen::Vector3f>& points, const Window
 void ScanCells::sortBlock(const Eigen::Vector3f* points, std::size_t count,
                           const WindowFrame& frame, ElevationUpdate& update) {
   Block block;
-  fill(points->data(), count, frame, block);
-  for (std::size_t i = 0; i < count; ++i) {
-    if (block.is_plain[i] != 0)
-      place(static_cast<std::uint32_t>(block.cell[i]), block.z[i]);
-    else
-      placeOdd({block.x[i], block.y[i], block.z[i]}, frame, update);
+  fill(points, count, frame, block);
+  const float per_cell = 1.0F / cell_m_;
+  const int side = side_;
+  Stack open = open_;  // a local: its members stay in registers
+  for (Eigen::Index i = 0; i < static_cast<Eigen::Index>(count); ++i) {
+    const float z = block.z(i);
+    if (!(block.odd(i) <= 0.0F) && !isKept({block.x(i), block.y(i), z}, frame, update)) continue;
+    const int column = std::min(static_cast<int>(block.x(i) * per_cell), side - 1);
+    const int row = std::min(static_cast<int>(block.y(i) * per_cell), side - 1);
+    const auto cell = static_cast<std::uint32_t>(row * side + column);
+    cells_[used_] = cell;
+    heights_[used_++] = z;
+    if (cell != open_cell_) open = exchangeStack(open, cell);
+    open.lowest = std::min(open.lowest, z);
+    open.highest = std::max(open.highest, z);
+    open.sum += z;
+    ++open.count;
   }
+  open_ = open;
 }
 
-void ScanCells::place(std::uint32_t cell, float z) {
-  cells_[used_] = cell;
-  heights_[used_] = z;
-  ++used_;
-  if (cell != open_cell_) openStack(cell);
-  open_.lowest = std::min(open_.lowest, z);
-  open_.highest = std::max(open_.highest, z);
-  open_.sum += z;
-  ++open_.count;
-}
-
-void ScanCells::openStack(std::uint32_t cell) {
-  stacks_[open_cell_] = open_;
+ScanCells::Stack ScanCells::exchangeStack(const Stack& open, std::uint32_t cell) {
+  stacks_[open_cell_] = open;
   open_cell_ = cell;
-  open_ = stacks_[cell];
-  if (open_.count == 0) touched_.push_back(cell);
+  if (stacks_[cell].count == 0) touched_.push_back(cell);
+  return stacks_[cell];
 }
 
-void ScanCells::placeOdd(const Eigen::Vector3f& point, const WindowFrame& frame,
-                         ElevationUpdate& update) {
+bool ScanCells::isKept(const Eigen::Vector3f& point, const WindowFrame& frame,
+                       ElevationUpdate& update) {
   const float extent = static_cast<float>(side_) * cell_m_;
-  if (!(point.cwiseAbs().maxCoeff() < kFarthest_m) || !point.allFinite()) {
+  const float distance = (point - frame.base).head<2>().norm();
+  if (!point.allFinite() || !(point.cwiseAbs().maxCoeff() < kFarthest_m)) {
     ++update.dropped_not_finite;
-    return;
-  }
-  if (!((point.head<2>().array() >= 0.0F).all() && (point.head<2>().array() < extent).all())) {
+  } else if ((point.head<2>().array() < 0.0F).any() || (point.head<2>().array() > extent).any()) {
     ++update.dropped_outside;
     rays_.add(point - frame.sensor);
-    return;
-  }
-  if (((frame.T_base_window * point).array().abs() <= half_body_m_.array()).all()) {
+  } else if (((frame.T_base_window * point).array().abs() <= half_body_m_.array()).all()) {
     ++update.dropped_self;
-    return;
-  }
-  const float distance = (point - frame.base).head<2>().norm();
-  if (point.z() > frame.foot_z + clearance_m_ + climb_ * distance) {
+  } else if (point.z() > frame.foot_z + clearance_m_ + climb_ * distance) {
     ++update.dropped_high;
-    return;
+  } else {
+    return true;
   }
-  const int column = std::min(static_cast<int>(point.x() / cell_m_), side_ - 1);
-  const int row = std::min(static_cast<int>(point.y() / cell_m_), side_ - 1);
-  place(static_cast<std::uint32_t>(row * side_ + column), point.z());
+  return false;
 }
 
 void ScanCells::cutTallStacks(ElevationUpdate& update) {

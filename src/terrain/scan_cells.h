@@ -53,11 +53,11 @@ class ScanCells {
   struct Block;
   void sortBlock(const Eigen::Vector3f* points, std::size_t count, const WindowFrame& frame,
                  ElevationUpdate& update);
-  void fill(const float* __restrict points, std::size_t count, const WindowFrame& frame,
-            Block& __restrict block) const;
-  void place(std::uint32_t cell, float z);
-  void placeOdd(const Eigen::Vector3f& point, const WindowFrame& frame, ElevationUpdate& update);
-  void openStack(std::uint32_t cell);
+  void fill(const Eigen::Vector3f* points, std::size_t count, const WindowFrame& frame,
+            Block& block) const;
+  /// Whether a point is ground or an obstacle; else it is counted as what it is.
+  bool isKept(const Eigen::Vector3f& point, const WindowFrame& frame, ElevationUpdate& update);
+  Stack exchangeStack(const Stack& open, std::uint32_t cell);
   void cutTallStacks(ElevationUpdate& update);
   void measure(const WindowFrame& frame, const WindowGrid& grid, const std::vector<float>& heights,
                ElevationUpdate& update);
