@@ -103,8 +103,7 @@ inline sim::WorldMesh groundWithRamp(double at_m, double angle_rad, double lengt
   const int base = static_cast<int>(mesh.vertices.size());
   for (const double x : {at_m, at_m + length_m})
     for (const double y : {-10.0, 10.0})
-      mesh.vertices.push_back(
-          Eigen::Vector3d(x, y, x > at_m ? rise : 0.0).cast<float>());
+      mesh.vertices.push_back(Eigen::Vector3d(x, y, x > at_m ? rise : 0.0).cast<float>());
   mesh.triangles.emplace_back(base, base + 1, base + 2);
   mesh.triangles.emplace_back(base + 1, base + 3, base + 2);
   return mesh;
@@ -140,7 +139,8 @@ inline std::string pictureOf(const TerrainView& view, double x0, double x1, doub
                              double step_m) {
   std::string text;
   for (double y = y1; y >= y0; y -= step_m) {
-    for (double x = x0; x <= x1; x += step_m) text += letterOf(view.classAt(view.grid().cellOf({x, y})));
+    for (double x = x0; x <= x1; x += step_m)
+      text += letterOf(view.classAt(view.grid().cellOf({x, y})));
     text += '\n';
   }
   return text;
