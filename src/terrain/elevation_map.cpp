@@ -12,8 +12,6 @@ namespace {
 
 constexpr float kInf = std::numeric_limits<float>::infinity();
 constexpr float kUnknown = std::numeric_limits<float>::quiet_NaN();
-constexpr float kLeastVariance = 0.003F * 0.003F;  // below it lies what a cell's height means
-constexpr int kIndependent = 4;        // returns of one scan in a cell; more share their errors
 constexpr float kBoundDrift = 0.01F;   // of an odometry's height, a metre of way
 constexpr float kDriftStep_m = 0.01F;  // added in steps: each concerns the whole map
 constexpr float kAssumedVariance = 0.05F * 0.05F;
@@ -131,54 +129,6 @@ void ElevationMap::growUncertainty(const Eigen::Vector3d& position, double stamp
   }
   last_position_ = position;
   last_stamp_s_ = stamp_s;
-}
-
-void ElevationMap::start(std::size_t slot, float height, float variance) {
-  height_[slot] = height;
-  variance_[slot] = variance;
-  other_count_[slot] = 0;
-}
-
-void ElevationMap::fuseCells(const Eigen::Vector3f& sensor, float stamp, ElevationUpdate& update) {
-  const auto cell_m = static_cast<float>(params_.cell_m);
-  const auto noise_base = static_cast<float>(params_.noise_base_m);
-  const auto noise_quadratic = static_cast<float>(params_.noise_quadratic_1pm);
-  const auto gate = static_cast<float>(params_.gate_sigmas * params_.gate_sigmas);
-  const float within_cell = cell_m * cell_m / 16.0F;
-  for (const ScanCells::Measure& measure : scan_cells_->measures()) {
-    const CellIndex cell(grid_.first().x() + measure.x, grid_.first().y() + measure.y);
-    const std::size_t slot = grid_.slotOf(cell);
-    const Eigen::Vector3f centre((static_cast<float>(measure.x) + 0.5F) * cell_m,
-                                 (static_cast<float>(measure.y) + 0.5F) * cell_m, measure.height);
-    const float deviation = noise_base + noise_quadratic * (centre - sensor).squaredNorm();
-    const float noise =
-        deviation * deviation / static_cast<float>(std::min(measure.count, kIndependent)) +
-        within_cell;
-    const float before = height_[slot];
-    const float innovation = measure.height - before;
-    const float spread = variance_[slot] + noise;
-    if (std::isnan(before)) {
-      start(slot, measure.height, noise);
-      ++update.cells_started;
-    } else if (innovation * innovation <= gate * spread) {
-      const float gain = variance_[slot] / spread;
-      height_[slot] = before + gain * innovation;
-      variance_[slot] = std::max(kLeastVariance, variance_[slot] * (1.0F - gain));
-      other_count_[slot] = 0;
-      ++update.cells_fused;
-    } else {
-      ++update.cells_in_conflict;
-      const float apart = measure.height - other_height_[slot];
-      const bool agrees = other_count_[slot] > 0 && apart * apart <= gate * (noise + noise);
-      other_count_[slot] = static_cast<std::uint8_t>(agrees ? other_count_[slot] + 1 : 1);
-      other_height_[slot] = measure.height;
-      if (other_count_[slot] < params_.conflicts_to_replace) continue;
-      start(slot, measure.height, noise);
-      ++update.cells_started;
-    }
-    stamp_[slot] = stamp;
-    if (height_[slot] != before) changed_.push_back(cell);
-  }
 }
 
 void ElevationMap::lowerBounds(const Eigen::Vector3f& sensor) {

@@ -19,17 +19,18 @@ struct WindowFrame {
   float foot_z = 0.0F;  ///< The robot's ground.
 };
 
+/// What a scan says of one cell.
+struct CellMeasure {
+  int x = 0;  ///< Cell from the window's lowest.
+  int y = 0;
+  float lowest = 0.0F;  ///< Return.
+  float height = 0.0F;  ///< Mean of the highest returns within the clearance.
+  int count = 0;        ///< Of those.
+};
+
 /// One scan's points sorted into the cells of a window. Keeps its memory from scan to scan.
 class ScanCells {
  public:
-  /// What a scan says of one cell.
-  struct Measure {
-    int x = 0;  ///< Cell from the window's lowest.
-    int y = 0;
-    float lowest = 0.0F;  ///< Return.
-    float height = 0.0F;  ///< Mean of the highest returns within the clearance.
-    int count = 0;        ///< Of those.
-  };
   ScanCells(const ElevationParams& params, const WindowGrid& grid);
 
   /// Sorts the points and reduces each cell's to a measure. `heights` are the known cells (NaN
@@ -38,7 +39,7 @@ class ScanCells {
                const WindowGrid& grid, const std::vector<float>& heights, ElevationUpdate& update);
 
   /// In the order the scan first met the cells.
-  [[nodiscard]] const std::vector<Measure>& measures() const { return measures_; }
+  [[nodiscard]] const std::vector<CellMeasure>& measures() const { return measures_; }
   /// Every ray that goes down, from the sensor.
   [[nodiscard]] const RayFan& rays() const { return rays_; }
 
@@ -74,7 +75,7 @@ class ScanCells {
   std::size_t used_ = 0;                ///< Of the two below: the points in the window.
   std::vector<std::uint32_t> cells_;
   std::vector<float> heights_;
-  std::vector<Measure> measures_;
+  std::vector<CellMeasure> measures_;
   RayFan rays_;
 };
 

@@ -27,7 +27,7 @@ PathGroundCheck checkPlainly(const TerrainView& view, const Path& path,
                              const FootprintParams& params) {
   PathGroundCheck check;
   const Path poses = resampled(path, params.pose_spacing_m);
-  const int reach = static_cast<int>(params.footprint_length_m / view.grid().cell()) + 2;
+  const int reach = static_cast<int>(1.5 / view.grid().cell());
   for (std::size_t i = 0; i < poses.size(); ++i) {
     if (i > 0) check.arc_m += distance(poses[i - 1], poses[i]);
     const CellIndex middle = view.grid().cellOf(poses[i].position.head<2>());

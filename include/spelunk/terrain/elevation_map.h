@@ -84,6 +84,7 @@ struct ElevationCell {
 };
 
 class ScanCells;
+struct CellMeasure;
 
 /// Robot-centric height of the ground with its variance, fused from all sensors (the idea of
 /// Fankhauser et al., Robot-centric elevation mapping with uncertainty estimates, CLAWAR 2014;
@@ -92,9 +93,11 @@ class ScanCells;
 /// A scan is reduced to one measurement a cell: from the lowest return on, everything within
 /// `clearance_m` is ground or what stands on it, and what hangs higher is dropped (in place of the
 /// lowest local maximum of Miller 2020, section V-A1: a wall's cell must not take the wall's foot
-/// for ground). The highest 10 cm of the rest are averaged: the surface a foot would meet. The
-/// measurement enters a Kalman filter unless its Mahalanobis distance is too large; measurements
-/// that keep disagreeing with the cell, but agree with each other, replace it.
+/// for ground). Where no ground is known, the robot's own and all that is known on the way to it
+/// tell with `climb_deg` what is too high. The highest 10 cm of the rest are
+/// averaged: the surface a foot would meet. The measurement enters a Kalman filter unless its
+/// Mahalanobis distance is too large; measurements that keep disagreeing with the cell, but agree
+/// with each other, replace it.
 ///
 /// Besides, every ray that goes down tells how high the surface below it can be at most, which is
 /// kept for cells not seen yet: it is how a hole is known whose bottom nobody sees. Rays are
@@ -142,7 +145,12 @@ class ElevationMap {
   void moveWindow(const CellIndex& middle);
   void forget(const CellIndex& first, const CellIndex& end);
   void growUncertainty(const Eigen::Vector3d& position, double stamp_s);
+  [[nodiscard]] bool hangs(const CellMeasure& measure) const;
   void start(std::size_t slot, float height, float variance);
+  void fuse(const CellMeasure& measure, const Eigen::Vector3f& sensor, float stamp,
+            ElevationUpdate& update);
+  /// Whether the cell now agrees with the measurement.
+  bool correct(std::size_t slot, float measured, float noise, ElevationUpdate& update);
   void fuseCells(const Eigen::Vector3f& sensor, float stamp, ElevationUpdate& update);
   void lowerBounds(const Eigen::Vector3f& sensor);
 
