@@ -50,6 +50,8 @@ class TerrainMap {
 
   [[nodiscard]] const TerrainParams& params() const { return params_; }
   [[nodiscard]] const ElevationMap& elevation() const { return elevation_; }
+  /// As of the last freeze().
+  [[nodiscard]] const Traversability& traversability() const { return traversability_; }
   void clear();
 
  private:
