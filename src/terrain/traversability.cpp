@@ -10,10 +10,7 @@
 namespace spelunk::terrain {
 namespace {
 
-constexpr int kTile = 16;
 constexpr float kReferenceReach_m = 2.0F;  // sums of squares keep their digits so far from it
-
-constexpr float kNoValue = std::numeric_limits<float>::quiet_NaN();
 
 int tilesOf(int side) { return (side + kTile - 1) / kTile; }
 
@@ -103,6 +100,10 @@ Traversability::Traversability(const TraversabilityParams& params, const WindowG
 
 void Traversability::note(const ElevationMap& elevation) {
   const std::vector<CellIndex>& changed = elevation.changed();
+  // Nobody asked for long: rather all again than a list without end.
+  if (noted_.size() > 4 * known_.size()) is_fresh_ = true;
+  if (is_fresh_) noted_.clear();
+  if (is_fresh_) return;
   noted_.insert(noted_.end(), changed.begin(), changed.end());
   noted_everywhere_ = noted_everywhere_ || elevation.changedEverywhere();
 }
@@ -239,47 +240,6 @@ void Traversability::rate(const CellRect& rect, const WindowGrid& grid) {
       const Rating::Result result = rating.of(slope_[cell], step, roughness_[cell]);
       layers_.value[slot] = result.value;
       layers_.ground_class[slot] = result.ground_class;
-    }
-}
-
-void Traversability::forgetUnknown(const CellRect& rect, const WindowGrid& grid) {
-  for (int y = rect.y_begin; y < rect.y_end; ++y)
-    for (int x = rect.x_begin; x < rect.x_end; ++x) {
-      if (known_[static_cast<std::size_t>(y * side_ + x)] != 0.0F) continue;
-      const std::size_t slot = grid.slotOf(grid.first().x() + x, grid.first().y() + y);
-      layers_.ground_class[slot] = GroundClass::kUnknown;
-      layers_.value[slot] = kNoValue;
-    }
-}
-
-void Traversability::findDrops(const CellRect& rect, const WindowGrid& grid) {
-  forgetUnknown(rect, grid);
-  const auto margin = static_cast<float>(params_.drop_margin_m);
-  for (int y = rect.y_begin; y < rect.y_end; y += kTile)
-    for (int x = rect.x_begin; x < rect.x_end; x += kTile) {
-      const CellRect tile{x, y, std::min(x + kTile, rect.x_end), std::min(y + kTile, rect.y_end)};
-      if (anyBelow(bound_, known_, upper_, side_, tile, drop_cells_, margin))
-        judgeUnknown(tile, grid);
-    }
-}
-
-void Traversability::judgeUnknown(const CellRect& rect, const WindowGrid& grid) {
-  const auto margin = static_cast<float>(params_.drop_margin_m);
-  const auto step_limit = static_cast<float>(params_.step_limit_m);
-  const auto fall = static_cast<float>(std::tan(params_.drop_slope_deg * M_PI / 180.0));
-  // The parabola whose fall plus the margin is nowhere less than the straight slope's.
-  const float curvature = fall * fall / (4.0F * margin) * cell_m_ * cell_m_;
-  slidingParabola(upper_, side_, rect, drop_cells_, curvature, scratch_, fall_);
-  slidingMin(lower_, side_, rect, drop_cells_, scratch_, floor_);
-  for (int y = rect.y_begin; y < rect.y_end; ++y)
-    for (int x = rect.x_begin; x < rect.x_end; ++x) {
-      const auto cell = static_cast<std::size_t>(y * side_ + x);
-      const float bound = bound_[cell];
-      if (known_[cell] != 0.0F || bound >= fall_[cell] - margin) continue;
-      if (bound >= floor_[cell] - margin && bound >= fall_[cell] - step_limit) continue;
-      const std::size_t slot = grid.slotOf(grid.first().x() + x, grid.first().y() + y);
-      layers_.ground_class[slot] = GroundClass::kDrop;
-      layers_.value[slot] = 0.0F;
     }
 }
 

@@ -1,12 +1,18 @@
 #pragma once
 
 #include <cstddef>
+#include <limits>
 #include <vector>
 
 namespace spelunk::terrain {
 
 /// Stands for nothing known in minima; negative in maxima. Finite, so that sums stay numbers.
 constexpr float kVeryHigh = 1e6F;
+
+constexpr int kTile = 16;  ///< Side of the squares of cells that are recomputed together.
+
+/// Of cells whose traversability is unknown.
+constexpr float kNoValue = std::numeric_limits<float>::quiet_NaN();
 
 /// Cells worked on at a time; layers are readable and writable so many cells beyond their end.
 constexpr int kLanes = 4;

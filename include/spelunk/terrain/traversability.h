@@ -141,7 +141,7 @@ class Traversability {
   int margin_;
   TraversabilityLayers layers_;
   CellIndex last_first_ = CellIndex::Zero();
-  bool is_fresh_ = true;  ///< Nothing was computed yet.
+  bool is_fresh_ = true;  ///< All is to be computed.
   float reference_z_ = 0.0F;
   std::vector<CellIndex> noted_;  ///< Cells that changed since the last update.
   bool noted_everywhere_ = false;
