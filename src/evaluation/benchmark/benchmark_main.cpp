@@ -27,9 +27,13 @@ bool run(const std::string& mesh_path, const std::string& only) {
     return *mine;
   };
   const std::vector<std::pair<std::string, std::function<std::vector<Row>()>>> groups{
-      {"map", [&] { return mapRows(walk); }},      {"status", [&] { return statusRows(known()); }},
-      {"edge", [&] { return edgeRows(known()); }}, {"gain", [&] { return gainRows(known()); }},
-      {"plan", [&] { return planRows(known()); }}, {"lidar", [&] { return lidarRows(walk); }}};
+      {"map", [&] { return mapRows(walk); }},
+      {"status", [&] { return statusRows(known()); }},
+      {"edge", [&] { return edgeRows(known()); }},
+      {"gain", [&] { return gainRows(known()); }},
+      {"plan", [&] { return planRows(known()); }},
+      {"lidar", [&] { return lidarRows(walk); }},
+      {"terrain", [&] { return terrainRows(walk); }}};
   std::cout << "| operation | against | plain | ours | ratio | floor | answers |\n"
                "|---|---|---|---|---|---|---|"
             << std::endl;
@@ -55,7 +59,7 @@ int main(int argc, char** argv) {
   app.add_option("--mesh", mesh, "mesh with <name>.json beside it that holds the start")
       ->required();
   app.add_option("--only", only, "one group of rows")
-      ->check(CLI::IsMember({"map", "status", "edge", "gain", "plan", "lidar"}));
+      ->check(CLI::IsMember({"map", "status", "edge", "gain", "plan", "lidar", "terrain"}));
   CLI11_PARSE(app, argc, argv);
   if (!std::filesystem::exists(mesh)) {
     std::cout << "skipped: no mesh at '" << mesh << "'" << std::endl;
