@@ -56,10 +56,15 @@ double TemplateRays::elevationOf(int row) const {
   return rows_ == 1 ? 0.0 : fov_vertical_ * (static_cast<double>(row) / (rows_ - 1) - 0.5);
 }
 
+double TemplateRays::solidAngleOf(int row) const {
+  const double height = rows_ == 1 ? spacing_ : fov_vertical_ / (rows_ - 1);
+  return spacing_ * height * std::cos(elevationOf(row));
+}
+
 void TemplateRays::addLevelCircle(double range_voxels) {
   for (int column = 0; column < circle_columns_; ++column)
     for (int row = 0; row < rows_; ++row)
-      addRay(direction(column * spacing_, elevationOf(row)), range_voxels);
+      addRay(direction(column * spacing_, elevationOf(row)), solidAngleOf(row), range_voxels);
 }
 
 void TemplateRays::addPitchedHeadings(const SensorModel& sensor, double range_voxels) {
@@ -74,7 +79,7 @@ void TemplateRays::addPitchedHeadings(const SensorModel& sensor, double range_vo
       for (int row = 0; row < rows_; ++row)
         addRay(R_world_sensor *
                    direction((column - 0.5 * (columns_ - 1)) * spacing_, elevationOf(row)),
-               range_voxels);
+               solidAngleOf(row), range_voxels);
   }
 }
 
@@ -90,7 +95,11 @@ TemplateRays::Heading TemplateRays::headingAt(double yaw) const {
           static_cast<std::size_t>(columns_ * rows_)};
 }
 
-void TemplateRays::addRay(const Eigen::Vector3d& direction, double range_voxels) {
+void TemplateRays::addRay(const Eigen::Vector3d& direction, double solid_angle,
+                          double range_voxels) {
+  const auto volumeWithin = [solid_angle](double length) {
+    return static_cast<float>(solid_angle * length * length * length / 3.0);
+  };
   std::array<double, 3> next;
   std::array<double, 3> spacing;
   std::array<int, 3> sign;
@@ -103,15 +112,17 @@ void TemplateRays::addRay(const Eigen::Vector3d& direction, double range_voxels)
   }
   Step step{};
   const auto begin = static_cast<std::uint32_t>(steps_.size());
+  const auto cone = static_cast<std::uint32_t>(cone_volumes_.size());
   for (;;) {
     std::size_t axis = next[0] <= next[1] ? 0 : 1;
     if (next[2] < next[axis]) axis = 2;
+    cone_volumes_.push_back(volumeWithin(std::min(next[axis], range_voxels)));
     if (!(next[axis] < range_voxels)) break;
     next[axis] += spacing[axis];
     step[axis] = static_cast<std::int16_t>(step[axis] + sign[axis]);
     steps_.push_back(step);
   }
-  rays_.push_back({begin, static_cast<std::uint32_t>(steps_.size()), step});
+  rays_.push_back({begin, static_cast<std::uint32_t>(steps_.size()), step, {}, cone});
   addCrossings(rays_.back());
 }
 

@@ -21,6 +21,7 @@ class TemplateRays {
     std::uint32_t end;
     Step last;                                 ///< The step before `end`.
     std::array<std::uint32_t, 3> crossings{};  ///< Where `crossings_` of each axis begin.
+    std::uint32_t cone = 0;                    ///< Where the ray begins in `coneVolumes()`.
   };
   /// Closed range of offsets.
   struct Range {
@@ -58,10 +59,15 @@ class TemplateRays {
   }
   [[nodiscard]] const std::vector<Ray>& rays() const { return rays_; }
   [[nodiscard]] const std::vector<Step>& steps() const { return steps_; }
+  /// For each step of a ray and for its end: the part of the ray's share of the field of view that
+  /// lies nearer, in volumes of a voxel. What differs between two is the volume they hold.
+  [[nodiscard]] const std::vector<float>& coneVolumes() const { return cone_volumes_; }
   [[nodiscard]] const Eigen::Vector3d& mount() const { return mount_m_; }
 
  private:
-  void addRay(const Eigen::Vector3d& direction, double range_voxels);
+  /// A row of the sensor sees a solid angle that shrinks towards the poles.
+  void addRay(const Eigen::Vector3d& direction, double solid_angle, double range_voxels);
+  [[nodiscard]] double solidAngleOf(int row) const;
   void addCrossings(Ray& ray);
   void addLevelCircle(double range_voxels);
   void addPitchedHeadings(const SensorModel& sensor, double range_voxels);
@@ -78,6 +84,7 @@ class TemplateRays {
   bool is_level_ = true;
   std::vector<Ray> rays_;
   std::vector<Step> steps_;
+  std::vector<float> cone_volumes_;
   std::vector<std::uint16_t> crossings_;  ///< By ray, axis, k: steps before the offset exceeds k.
 };
 

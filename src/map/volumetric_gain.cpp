@@ -111,6 +111,24 @@ bool countRay(const std::uint8_t* start, const std::int32_t* offsets, std::size_
   return is_open;
 }
 
+/// The same by the volumes of the ray's cone; `volumes` has one entry a step and one for the end.
+bool countCone(const std::uint8_t* start, const std::int32_t* offsets, std::size_t count,
+               const float* volumes, VolumetricGain& gain) {
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::uint8_t cell = start[offsets[i]];
+    if (cell == kUnknownCell) {
+      ++gain.unknown_voxels;
+      gain.unknown_m3 += static_cast<double>(volumes[i + 1]) - static_cast<double>(volumes[i]);
+    } else if (cell == kOccupiedCell) {
+      ++gain.occupied_voxels;
+      return false;
+    } else {
+      ++gain.free_voxels;
+    }
+  }
+  return true;
+}
+
 void countRayOnce(const std::uint8_t* cells, std::size_t start, const std::int32_t* offsets,
                   std::size_t count, SeenCells& seen, VolumetricGain& gain) {
   for (std::size_t i = 0; i < count; ++i) {
@@ -180,6 +198,15 @@ void GainEvaluator::Impl::countSensor(std::size_t sensor, const LocalWindow& win
       continue;
     }
     const std::size_t known_count = rays.stepsInside(ray, known);
+    if (counting == GainCounting::kCone) {
+      const float* volumes = rays.coneVolumes().data() + ray.cone;
+      if (!countCone(window.cells().data() + start_cell, cells, known_count, volumes, gain))
+        continue;
+      gain.unknown_voxels += static_cast<int>(count - known_count);
+      gain.unknown_m3 +=
+          static_cast<double>(volumes[count]) - static_cast<double>(volumes[known_count]);
+      continue;
+    }
     if (countRay(window.cells().data() + start_cell, cells, known_count, gain))
       gain.unknown_voxels += static_cast<int>(count - known_count);
   }
@@ -215,7 +242,8 @@ VolumetricGain GainEvaluator::evaluate(const LocalWindow& window, const Eigen::V
     impl_->countSensor(i, window, window.indexOf(origin), yaw, bounds, *offsets,
                        is_distinct ? &seen : nullptr, gain);
   }
-  gain.unknown_m3 = gain.unknown_voxels * std::pow(impl_->resolution_m, 3);
+  if (impl_->counting != GainCounting::kCone) gain.unknown_m3 = gain.unknown_voxels;
+  gain.unknown_m3 *= std::pow(impl_->resolution_m, 3);
   return gain;
 }
 

@@ -10,9 +10,7 @@
 namespace spelunk::map {
 
 /// What the sensors would see from one configuration, counted in voxels along their rays. Rays end
-/// at the first occupied voxel or at gain_range_m; a voxel crossed by several rays of one
-/// sensor counts once a ray (Dang 2020, section 4.1, Fig. 3, do not remove the double counting)
-/// or once in all, as asked.
+/// at the first occupied voxel or at gain_range_m.
 struct VolumetricGain {
   int unknown_voxels = 0;
   int free_voxels = 0;
@@ -20,7 +18,16 @@ struct VolumetricGain {
   double unknown_m3 = 0.0;
 };
 
-enum class GainCounting { kPerRay, kDistinct };
+/// How unknown voxels on rays add up to a volume.
+enum class GainCounting {
+  kPerRay,    ///< A voxel counts once for each ray that crosses it: Dang 2020, section 4.1, Fig. 3,
+              ///< does not remove the double counting. Voxels near by count many times, far ones
+              ///< stand for what lies between the rays as well.
+  kDistinct,  ///< A voxel counts once.
+  kCone       ///< Each ray stands for its share of the field of view: a voxel on it counts as much
+              ///< volume as the share holds between its two ends. The sum over an open field is the
+              ///< field's volume, whatever the angle between the rays.
+};
 
 /// Casts template rays: lists of voxel offsets from a voxel's centre, computed once per sensor.
 class GainEvaluator {

@@ -298,7 +298,8 @@ struct GbPlanner::Search {
 GbPlanner::GbPlanner(const GbPlannerParams& params, const RobotModel& robot, double resolution_m)
     : params_(params),
       robot_(robot),
-      evaluator_(robot.sensor_models, resolution_m, map::GainCounting::kPerRay),
+      evaluator_(robot.sensor_models, resolution_m,
+                 params.count_cones ? map::GainCounting::kCone : map::GainCounting::kPerRay),
       credible_({params.closing_height_m, params.growth_m}),
       global_(limitsFrom(params)),
       tried_(params.tried_radius_m),

@@ -25,9 +25,9 @@ struct GbPlannerParams {
   double local_length_max_m = 24.0;
   double path_spacing_m = 1.0;
   bool count_once = false;
+  bool count_cones = false;
   double closing_height_m = 1.4;
   double growth_m = 0.2;
-  double gain_floor_m3 = 15.0;
   Eigen::Vector3d safety_margin_m{0.1, 0.1, 0.3};
   double tightness_cost = 2.0;
   double frontier_gain_m3 = 12.0;
@@ -71,12 +71,12 @@ struct GbPlannerParams {
           "spacing of points compared by time warping");
     field("count_once", count_once, Bounds{},
           "count the gain of a path at its best vertex instead of the sum over all");
+    field("count_cones", count_cones, Bounds{},
+          "a ray counts the volume of its cone instead of its voxels");
     field("closing_height_m", closing_height_m, Bounds{0.0, 10.0},
           "gaps between sensor rows this high hold nothing to explore");
     field("growth_m", growth_m, Bounds{0.0, 5.0},
           "obstacles are this much thicker for the rays of a gain");
-    field("gain_floor_m3", gain_floor_m3, Bounds{0.0, 1e6},
-          "a smaller volumetric gain counts as none: it is noise");
     field("safety_margin_m", safety_margin_m, Bounds{0.0, 2.0}, "room wanted on each side");
     field("tightness_cost", tightness_cost, Bounds{1.0, 100.0},
           "ways without that room count as this many times longer");
