@@ -214,6 +214,31 @@ void MeshScene::castFan(const Eigen::Vector3f& origin,
   }
 }
 
+std::optional<RayHit> MeshScene::castRay(const Eigen::Vector3d& origin,
+                                         const Eigen::Vector3d& direction, double range_max) const {
+  const Eigen::Vector3f from = origin.cast<float>();
+  const Eigen::Vector3f along = direction.cast<float>();
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  alignas(16) RTCRayHit query{};
+  query.ray.org_x = from.x();
+  query.ray.org_y = from.y();
+  query.ray.org_z = from.z();
+  query.ray.dir_x = along.x();
+  query.ray.dir_y = along.y();
+  query.ray.dir_z = along.z();
+  query.ray.tfar = static_cast<float>(range_max);
+  query.ray.mask = ~0U;
+  query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+  query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+  rtcIntersect1(impl_->scene, &context, &query);
+  if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
+  const Eigen::Vector3d normal = impl_->planes[query.hit.primID].normal.normalized();
+  return RayHit{
+      impl_->rangeTo(query.hit.primID, from.cast<double>(), along, query.ray.tfar),
+      normal.dot(direction) > 0.0 ? Eigen::Vector3d(-normal) : normal};
+}
+
 double MeshScene::distanceTo(const Eigen::Vector3d& point, double limit_m) const {
   require(limit_m >= 0.0 && point.allFinite(), "MeshScene::distanceTo: bad point or limit");
   return impl_->search({&impl_->mesh, point, Eigen::Vector3d::Zero(), limit_m * limit_m}, limit_m,
