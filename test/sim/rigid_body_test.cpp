@@ -13,7 +13,7 @@ constexpr double kStep = 0.0025;
 const RigidBody::Shape kShape{2.0, {0.03, 0.03, 0.05}, {0.6, 0.6, 0.2}};
 
 RigidBody bodyAt(const Vector3d& position) {
-  return {test::boxRoom({20, 20, 10}), kShape, {position, 0.0}};
+  return {test::boxRoom({20, 20, 10}), kShape, position, Eigen::Quaterniond::Identity()};
 }
 
 TEST(RigidBody, FallsWithGravity) {
