@@ -19,7 +19,7 @@ constexpr double kSlopeMax = 0.7;         ///< Steeper ground no longer tilts th
 constexpr double kReachShare = 0.97;      ///< Of a leg's length that the trunk's height counts on.
 constexpr double kAnchor_m = 0.05;        ///< The wanted position runs ahead of the trunk so far ...
 constexpr double kAnchorYaw_rad = 0.15;   ///< ... and the wanted heading.
-constexpr double kSidewaysMax_mps2 = 4.0;
+constexpr double kSidewaysMax_mps2 = 3.0;
 constexpr double kLiftMin = 0.3;  ///< Vertical force, shares of the weight.
 constexpr double kLiftMax = 2.0;
 

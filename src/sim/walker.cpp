@@ -15,7 +15,11 @@ constexpr double kTrunkFriction = 0.7;
 constexpr double kAssumedFriction = 0.6;  ///< What the robot takes the ground's friction for.
 constexpr double kFallenTilt = 0.5;       ///< Cosine of the tilt that counts as a fall: 60 degrees.
 constexpr double kFallenTime_s = 0.5;     ///< So long the ground carries the trunk ...
-constexpr double kFallenShare = 0.15;     ///< ... with so much of its weight: it has fallen.
+constexpr double kFallenShare = 0.4;      ///< ... with so much of its weight: it has fallen.
+
+/// Beyond either the balance is lost and the legs let go, as a real controller's do before a crash.
+constexpr double kLostTilt = 0.75;      ///< Cosine of the tilt: 41 degrees.
+constexpr double kLostSinking_mps = 1.0;  ///< Downward.
 
 FootPoints positionsOf(const std::array<Foothold, kLegs>& holds) {
   FootPoints points;
@@ -58,7 +62,7 @@ Walker::Walker(const WalkerParams& params, const RobotModel& robot, const WorldM
 
 void Walker::step(double step_s, double time_s, const BodyState& estimate,
                   MotionReference& reference, Power power) {
-  is_limp_ = has_fallen_ || power == Power::kOff;
+  is_limp_ = is_limp_ || has_fallen_ || power == Power::kOff || hasLostBalance();
   since_control_s_ += step_s;
   if (!is_limp_ && since_control_s_ >= kControlPeriod_s - kTimeTolerance) {
     control(std::min(since_control_s_, kControlPeriod_s + step_s), time_s, estimate, reference);
@@ -96,6 +100,12 @@ void Walker::push(double step_s) {
     wrench.torque_nm = trunk.orientation.conjugate() * torque;
   }
   body_.step(step_s, wrench, force);
+}
+
+bool Walker::hasLostBalance() const {
+  const BodyState trunk = body_.state();
+  return (trunk.orientation * Vector3d::UnitZ()).z() < kLostTilt ||
+         trunk.velocity.z() < -kLostSinking_mps;
 }
 
 void Walker::watchForFall(double step_s) {

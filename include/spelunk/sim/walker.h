@@ -41,6 +41,7 @@ class Walker : public Vehicle {
   void control(double step_s, double time_s, const BodyState& estimate,
                MotionReference& reference);
   void push(double step_s);
+  [[nodiscard]] bool hasLostBalance() const;
   void watchForFall(double step_s);
   void updateJoints(const BodyState& trunk);
 
@@ -54,7 +55,7 @@ class Walker : public Vehicle {
   std::vector<Eigen::Vector3d> forces_;  ///< One a standing foot, world frame.
   double since_control_s_ = 1.0;
   double on_ground_s_ = 0.0;
-  bool is_limp_ = false;
+  bool is_limp_ = false;  ///< Once limp, for good.
   bool has_fallen_ = false;
 };
 

@@ -26,7 +26,7 @@ struct WalkerParams {
   double flexion_max_deg = 110.0;
   double knee_min_deg = 20.0;
   double knee_max_deg = 150.0;
-  double foot_force_max_n = 600.0;
+  double foot_force_max_n = 450.0;
   double friction_coefficient = 0.7;
   double foothold_slope_max_deg = 38.0;
   double foothold_search_m = 0.2;
