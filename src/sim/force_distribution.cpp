@@ -76,9 +76,10 @@ std::vector<Vector3d> distributeForces(const TrunkWrench& wanted,
   target << wanted.force_n, wanted.torque_nm;
   Eigen::Matrix<double, 6, 1> weights;
   weights << 1.0, 1.0, 1.0, kTorqueWeight, kTorqueWeight, kTorqueWeight;
-  Square hessian = edges.transpose() * weights.asDiagonal() * edges;
+  const Edges weighted = weights.asDiagonal() * edges;
+  Square hessian = edges.transpose().lazyProduct(weighted);
   hessian.diagonal().array() += kForceWeight;
-  const Column gradient = edges.transpose() * weights.cwiseProduct(target);
+  const Column gradient = weighted.transpose().lazyProduct(target);
   const Column factors = minimise(hessian, gradient, 0.5 * force_max_n);
   std::vector<Vector3d> forces;
   for (int foot = 0; foot < static_cast<int>(contacts.size()); ++foot)
