@@ -1,9 +1,8 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <functional>
-#include <string>
-#include <utility>
+#include <algorithm>
+#include <cmath>
 #include <vector>
 
 #include "spelunk/sim/rock_noise.h"
@@ -70,7 +69,7 @@ inline sim::WorldMesh trench(float depth_m, float width_m) {
 /// Ground with bumps and hollows, `height_m` from the lowest to the highest, of 0.6 m and up; flat
 /// around x = y = 0.
 inline sim::WorldMesh roughGround(float length_m, float width_m, float height_m, unsigned seed) {
-  constexpr float kCell = 0.1F;
+  constexpr double kCell = 0.1;
   sim::WorldMesh mesh;
   mesh.name = "rough";
   const int columns = static_cast<int>(length_m / kCell) + 1;
