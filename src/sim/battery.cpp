@@ -6,7 +6,7 @@ namespace spelunk::sim {
 namespace {
 
 constexpr double kJoulesPerWattHour = 3600.0;
-constexpr double kMeanPowerWindow = 30.0;   ///< Seconds.
+constexpr double kMeanPowerWindow = 30.0;  ///< Seconds.
 
 }  // namespace
 

@@ -56,8 +56,8 @@ bool FootholdSearch::isFlatAround(const Foothold& foothold) const {
   for (std::size_t k = 0; k < 4; ++k) {
     const Vector3d offset(kFootRadius_m * kCompass[k][0], kFootRadius_m * kCompass[k][1], 0.0);
     const double rise = -foothold.normal.dot(offset) / foothold.normal.z();
-    const auto beside = groundBelow(
-        foothold.position + offset + Vector3d(0.0, 0.0, rise + reach), 2.0 * reach);
+    const auto beside =
+        groundBelow(foothold.position + offset + Vector3d(0.0, 0.0, rise + reach), 2.0 * reach);
     if (!beside || std::abs(beside->position.z() - foothold.position.z() - rise) > kEdge_m)
       return false;
   }

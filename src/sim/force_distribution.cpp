@@ -12,15 +12,15 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr int kEdges = 4;       ///< Of a friction pyramid.
+constexpr int kEdges = 4;  ///< Of a friction pyramid.
 constexpr int kContactsMax = 4;
 constexpr int kSizeMax = kEdges * kContactsMax;
 constexpr double kTorqueWeight = 10.0;  ///< 1/m^2: a newton at 0.3 m counts as a newton.
 constexpr double kForceWeight = 0.02;   ///< Of the forces against the error of the wrench.
 
 using Edges = Eigen::Matrix<double, 6, Eigen::Dynamic, 0, 6, kSizeMax>;
-using Square = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor, kSizeMax,
-                             kSizeMax>;
+using Square =
+    Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor, kSizeMax, kSizeMax>;
 using Column = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kSizeMax, 1>;
 
 /// Any two directions along the ground.

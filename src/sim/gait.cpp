@@ -14,9 +14,7 @@ constexpr std::array<double, kLegs> kWalkOffsets{0.75, 0.25, 0.0, 0.5};
 }  // namespace
 
 Gait::Gait(const WalkerParams& params)
-    : period_s_(params.gait_period_s),
-      duty_(params.duty_factor),
-      is_walk_(params.gait == "walk") {
+    : period_s_(params.gait_period_s), duty_(params.duty_factor), is_walk_(params.gait == "walk") {
   restart();
 }
 

@@ -55,9 +55,9 @@ std::optional<LegAngles> Leg::anglesFor(const Eigen::Vector3d& foot) const {
   if (cosine < -1.0 || cosine > 1.0) return std::nullopt;
   const double bend = std::acos(cosine);
   angles.knee = knee_side_ * bend;
-  angles.flexion = wrapAngle(
-      std::atan2(-p.x(), -z) -
-      std::atan2(shank_ * std::sin(angles.knee), thigh_ + shank_ * std::cos(angles.knee)));
+  angles.flexion =
+      wrapAngle(std::atan2(-p.x(), -z) - std::atan2(shank_ * std::sin(angles.knee),
+                                                    thigh_ + shank_ * std::cos(angles.knee)));
   if (std::abs(angles.abduction) > abduction_max_ || std::abs(angles.flexion) > flexion_max_ ||
       bend < knee_min_ || bend > knee_max_)
     return std::nullopt;

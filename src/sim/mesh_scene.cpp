@@ -234,9 +234,8 @@ std::optional<RayHit> MeshScene::castRay(const Eigen::Vector3d& origin,
   rtcIntersect1(impl_->scene, &context, &query);
   if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
   const Eigen::Vector3d normal = impl_->planes[query.hit.primID].normal.normalized();
-  return RayHit{
-      impl_->rangeTo(query.hit.primID, from.cast<double>(), along, query.ray.tfar),
-      normal.dot(direction) > 0.0 ? Eigen::Vector3d(-normal) : normal};
+  return RayHit{impl_->rangeTo(query.hit.primID, from.cast<double>(), along, query.ray.tfar),
+                normal.dot(direction) > 0.0 ? Eigen::Vector3d(-normal) : normal};
 }
 
 double MeshScene::distanceTo(const Eigen::Vector3d& point, double limit_m) const {

@@ -39,9 +39,8 @@ MotionReference::MotionReference(const Pose& start, double braking_mps2)
 void MotionReference::follow(Trajectory trajectory, double time_s, const BodyState& estimate) {
   drive_.reset();
   delay_s_ = 0.0;
-  trajectory_ = trajectory.empty()
-                    ? brakingTrajectory(time_s, motionOf(estimate), braking_mps2_)
-                    : std::move(trajectory);
+  trajectory_ = trajectory.empty() ? brakingTrajectory(time_s, motionOf(estimate), braking_mps2_)
+                                   : std::move(trajectory);
 }
 
 void MotionReference::drive(const DriveCommand& command, double time_s) {

@@ -19,10 +19,10 @@ Multirotor::Multirotor(const SimParams& params, const WorldMesh& mesh, const Mes
 void Multirotor::step(double step_s, double time_s, const BodyState& estimate,
                       MotionReference& reference, Power power) {
   const TrajectoryPoint ahead = reference.at(time_s + kAccelerationPreview, estimate);
-  rotors_.command(power == Power::kOff
-                      ? Wrench{}
-                      : computeWrench(airframe_, estimate, reference.at(time_s, estimate),
-                                      ahead.acceleration));
+  rotors_.command(
+      power == Power::kOff
+          ? Wrench{}
+          : computeWrench(airframe_, estimate, reference.at(time_s, estimate), ahead.acceleration));
   rotors_.advance(step_s);
   body_.step(step_s, rotors_.wrench(), -airframe_.drag_coefficient * body_.state().velocity);
 }

@@ -63,8 +63,8 @@ struct RigidBody::Impl {
     world.setForceUpdateAllAabbs(false);
     world.setGravity({0.0, 0.0, -kGravity});
     mesh_shape.setMargin(kMeshMargin);
-    body.setWorldTransform(btTransform(btQuaternion(turn.x(), turn.y(), turn.z(), turn.w()),
-                                       toBullet(position)));
+    body.setWorldTransform(
+        btTransform(btQuaternion(turn.x(), turn.y(), turn.z(), turn.w()), toBullet(position)));
     body.setInterpolationWorldTransform(body.getWorldTransform());
     body.setActivationState(DISABLE_DEACTIVATION);
     for (btRigidBody* part : {&ground, &body}) {

@@ -156,8 +156,8 @@ struct Simulator::Impl {
     const double time_s = timeAfter(steps);
     for (RangeSensor& sensor : sensors) {
       if (sensor.nextScanTime() > time_s + kTimeTolerance) continue;
-      scans.push_back(
-          sensor.scan(scene, toIsometry(vehicle->state()), toIsometry(odometry.measurement()), time_s));
+      scans.push_back(sensor.scan(scene, toIsometry(vehicle->state()),
+                                  toIsometry(odometry.measurement()), time_s));
     }
   }
 

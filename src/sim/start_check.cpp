@@ -19,14 +19,13 @@ void requireInside(const WorldMesh& mesh, const Pose& start) {
                        "'; give a start inside the mesh (--start x,y,z,yaw)");
 }
 
-void requireFreeBody(const MeshScene& scene, const WorldMesh& mesh,
-                     const Eigen::Vector3d& position, const Eigen::Vector3d& size_m,
-                     const std::string& size_key) {
+void requireFreeBody(const MeshScene& scene, const WorldMesh& mesh, const Eigen::Vector3d& position,
+                     const Eigen::Vector3d& size_m, const std::string& size_key) {
   if (scene.boxDistance(position, size_m, 1.0) > 0.0) return;
   std::ostringstream text;
   text << "start " << textOf(position) << " is in collision with the world '" << mesh.name
-       << "': clearance " << scene.distanceTo(position, 100.0)
-       << " m from the centre, the body is " << size_m.transpose()
+       << "': clearance " << scene.distanceTo(position, 100.0) << " m from the centre, the body is "
+       << size_m.transpose()
        << " m; choose a start farther from walls (--start x,y,z,yaw) or a smaller " << size_key;
   throw OutsideError(text.str());
 }

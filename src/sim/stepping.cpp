@@ -10,13 +10,13 @@ using Eigen::Isometry3d;
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-constexpr double kCapture_s = 0.12;       ///< A metre a second too fast sets feet so far ahead.
-constexpr double kLeastSwing = 0.4;       ///< A step begins while so much of its time is left.
-constexpr double kSearchPeriod_s = 0.05;  ///< A foot without a place looks for one so often ...
-constexpr double kSearchSwing_s = 0.15;   ///< ... and needs so long to get there.
-constexpr double kStoop_m = 0.08;         ///< The trunk lowers so far within a swing.
-constexpr double kRestOff_m = 0.06;       ///< Standing, feet may be so far from their place.
-constexpr double kTuck_m = 0.05;          ///< A foot without a place is drawn up so far.
+constexpr double kCapture_s = 0.12;         ///< A metre a second too fast sets feet so far ahead.
+constexpr double kLeastSwing = 0.4;         ///< A step begins while so much of its time is left.
+constexpr double kSearchPeriod_s = 0.05;    ///< A foot without a place looks for one so often ...
+constexpr double kSearchSwing_s = 0.15;     ///< ... and needs so long to get there.
+constexpr double kStoop_m = 0.08;           ///< The trunk lowers so far within a swing.
+constexpr double kRestOff_m = 0.06;         ///< Standing, feet may be so far from their place.
+constexpr double kTuck_m = 0.05;            ///< A foot without a place is drawn up so far.
 constexpr double kSlideResistance = 300.0;  ///< N s/m of a sliding foot.
 constexpr double kSlideMax_mps = 1.0;
 constexpr double kSlip_m = 0.03;  ///< A slide that counts.
@@ -152,8 +152,8 @@ bool Stepping::aimAt(std::size_t leg, const Motion& motion, double duration_s) {
   Foot& foot = feet_[leg];
   foot.hold = *hold;
   foot.phase = FootPhase::kSwing;
-  foot.curve = SwingCurve(foot.position, hold->position, swing_height_, motion.trunk.position.z(),
-                          ground_);
+  foot.curve =
+      SwingCurve(foot.position, hold->position, swing_height_, motion.trunk.position.z(), ground_);
   foot.swung_s = 0.0;
   foot.swing_s = duration_s;
   return true;
@@ -205,8 +205,8 @@ std::vector<FootContact> Stepping::contacts(const BodyState& trunk) const {
 void Stepping::slide(Foot& foot, const Vector3d& excess_n, double step_s) {
   const double speed = std::min(kSlideMax_mps, excess_n.norm() / kSlideResistance);
   const Vector3d moved = foot.position - speed * step_s * excess_n.normalized();
-  const auto ground = ground_.groundBelow(moved + 0.5 * kSlideDepth_m * Vector3d::UnitZ(),
-                                          kSlideDepth_m);
+  const auto ground =
+      ground_.groundBelow(moved + 0.5 * kSlideDepth_m * Vector3d::UnitZ(), kSlideDepth_m);
   const bool had_slipped = foot.slid_m >= kSlip_m;
   foot.slid_m += speed * step_s;
   if (!had_slipped && foot.slid_m >= kSlip_m) ++slips_;

@@ -13,12 +13,12 @@ using Eigen::Matrix3d;
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-constexpr double kGroundLag = 0.15;       ///< Seconds: the plane follows the feet.
-constexpr double kHeightLag = 0.10;       ///< Seconds: the height follows the plane.
-constexpr double kSlopeMax = 0.7;         ///< Steeper ground no longer tilts the trunk further.
-constexpr double kReachShare = 0.97;      ///< Of a leg's length that the trunk's height counts on.
-constexpr double kAnchor_m = 0.05;        ///< The wanted position runs ahead of the trunk so far ...
-constexpr double kAnchorYaw_rad = 0.15;   ///< ... and the wanted heading.
+constexpr double kGroundLag = 0.15;      ///< Seconds: the plane follows the feet.
+constexpr double kHeightLag = 0.10;      ///< Seconds: the height follows the plane.
+constexpr double kSlopeMax = 0.7;        ///< Steeper ground no longer tilts the trunk further.
+constexpr double kReachShare = 0.97;     ///< Of a leg's length that the trunk's height counts on.
+constexpr double kAnchor_m = 0.05;       ///< The wanted position runs ahead of the trunk so far ...
+constexpr double kAnchorYaw_rad = 0.15;  ///< ... and the wanted heading.
 constexpr double kSidewaysMax_mps2 = 3.0;
 constexpr double kLiftMin = 0.3;  ///< Vertical force, shares of the weight.
 constexpr double kLiftMax = 2.0;
@@ -112,8 +112,8 @@ void TrunkPosture::advance(double step_s, const BodyState& trunk, const DriveCom
   position_.z() += step_s * velocity_.z();
   position_.z() += std::min(1.0, step_s / kHeightLag) * (wantedHeight(trunk, feet) - position_.z());
   yaw_rate_ = command.yaw_rate_radps;
-  yaw_ = yaw + std::clamp(wrapAngle(yaw_ - yaw) + step_s * yaw_rate_, -kAnchorYaw_rad,
-                          kAnchorYaw_rad);
+  yaw_ =
+      yaw + std::clamp(wrapAngle(yaw_ - yaw) + step_s * yaw_rate_, -kAnchorYaw_rad, kAnchorYaw_rad);
 }
 
 TrunkWrench TrunkPosture::wrench(const BodyState& trunk) const {

@@ -15,7 +15,7 @@ constexpr double kYawGain = 1.8;       ///< 1/s
 constexpr double kCatchUp = 1.2;       ///< Share of the cruising speed while behind.
 constexpr double kRest_m = 0.04;       ///< Nearer to a resting reference the robot stands ...
 constexpr double kRest_rad = 0.05;
-constexpr double kWake = 2.5;      ///< ... until it is so many times farther off.
+constexpr double kWake = 2.5;        ///< ... until it is so many times farther off.
 constexpr double kLagFree_m = 0.12;  ///< Farther behind, the reference slows down ...
 constexpr double kLagMax_m = 0.35;   ///< ... and waits.
 
@@ -26,8 +26,8 @@ double approached(double value, double target, double change) {
 /// `command` shortened, its direction kept, until it is within `limits`.
 Vector2d shortened(const Vector2d& command, const DriveLimits& limits) {
   const double forward = command.x() > 0.0 ? limits.forward_mps : limits.backward_mps;
-  const double over = std::max(std::abs(command.x()) / forward,
-                               std::abs(command.y()) / limits.sideways_mps);
+  const double over =
+      std::max(std::abs(command.x()) / forward, std::abs(command.y()) / limits.sideways_mps);
   return over > 1.0 ? Vector2d(command / over) : command;
 }
 
@@ -61,18 +61,16 @@ DriveCommand WalkTracker::advance(double step_s, double time_s, const BodyState&
   const double yaw_rate = (1.0 - lag) * point.yaw_rate + kYawGain * yaw_off;
   const bool is_moving = point.velocity.head<2>().norm() > 0.0 || point.yaw_rate != 0.0;
   const double wake = is_resting_ ? kWake : 1.0;
-  is_resting_ =
-      !is_moving && off.norm() < wake * kRest_m && std::abs(yaw_off) < wake * kRest_rad;
+  is_resting_ = !is_moving && off.norm() < wake * kRest_m && std::abs(yaw_off) < wake * kRest_rad;
 
-  const Vector2d wanted =
-      shortened({heading.dot(velocity), heading.x() * velocity.y() - heading.y() * velocity.x()},
-                limits_);
+  const Vector2d wanted = shortened(
+      {heading.dot(velocity), heading.x() * velocity.y() - heading.y() * velocity.x()}, limits_);
   const double change = acceleration_ * step_s;
   const double turn = std::clamp(yaw_rate, -limits_.yaw_rate_radps, limits_.yaw_rate_radps);
   command_.forward_mps = approached(command_.forward_mps, is_resting_ ? 0.0 : wanted.x(), change);
   command_.sideways_mps = approached(command_.sideways_mps, is_resting_ ? 0.0 : wanted.y(), change);
-  command_.yaw_rate_radps = approached(command_.yaw_rate_radps, is_resting_ ? 0.0 : turn,
-                                       yaw_acceleration_ * step_s);
+  command_.yaw_rate_radps =
+      approached(command_.yaw_rate_radps, is_resting_ ? 0.0 : turn, yaw_acceleration_ * step_s);
   return command_;
 }
 

@@ -18,7 +18,7 @@ constexpr double kFallenTime_s = 0.5;     ///< So long the ground carries the tr
 constexpr double kFallenShare = 0.4;      ///< ... with so much of its weight: it has fallen.
 
 /// Beyond either the balance is lost and the legs let go, as a real controller's do before a crash.
-constexpr double kLostTilt = 0.75;      ///< Cosine of the tilt: 41 degrees.
+constexpr double kLostTilt = 0.75;        ///< Cosine of the tilt: 41 degrees.
 constexpr double kLostSinking_mps = 1.0;  ///< Downward.
 
 FootPoints positionsOf(const std::array<Foothold, kLegs>& holds) {
@@ -36,8 +36,7 @@ BodyState atRest(const Stance& stance) {
 
 WalkerParams checked(const WalkerParams& params) {
   std::string text;
-  for (const std::string& problem : params.problems())
-    text += (text.empty() ? "" : "; ") + problem;
+  for (const std::string& problem : params.problems()) text += (text.empty() ? "" : "; ") + problem;
   if (!text.empty()) throw OutsideError(text);
   return params;
 }
@@ -80,8 +79,8 @@ void Walker::control(double step_s, double time_s, const BodyState& estimate,
   posture_.advance(step_s, trunk, command, stepping_.grounds());
   std::vector<FootContact> contacts = stepping_.contacts(trunk);
   for (FootContact& contact : contacts) contact.normal = posture_.ground().normal();
-  const std::vector<Vector3d> wanted = distributeForces(
-      posture_.wrench(trunk), contacts, kAssumedFriction, params_.foot_force_max_n);
+  const std::vector<Vector3d> wanted = distributeForces(posture_.wrench(trunk), contacts,
+                                                        kAssumedFriction, params_.foot_force_max_n);
   forces_ = stepping_.held(step_s, wanted);
   updateJoints(trunk);
 }
@@ -111,8 +110,7 @@ bool Walker::hasLostBalance() const {
 void Walker::watchForFall(double step_s) {
   if (has_fallen_) return;
   const double upright = (body_.state().orientation * Vector3d::UnitZ()).z();
-  const bool lies =
-      body_.contactForce().z() > kFallenShare * params_.trunk_mass_kg * kGravity;
+  const bool lies = body_.contactForce().z() > kFallenShare * params_.trunk_mass_kg * kGravity;
   on_ground_s_ = std::max(0.0, on_ground_s_ + (lies ? step_s : -step_s));
   has_fallen_ = upright < kFallenTilt || on_ground_s_ > kFallenTime_s;
 }

@@ -39,8 +39,9 @@ FootPoints underTheHips(const FootholdSearch& ground, const WorldMesh& mesh,
     above.z() = std::max(start.position.z(), middle.z() + kRise_m);
     const auto foot = ground.groundBelow(above, above.z() - middle.z() + kRise_m);
     if (!foot)
-      refuse(start, mesh,
-             std::string("no ground under foot ") + kLegNames[k] + "; choose a start on firm floor");
+      refuse(
+          start, mesh,
+          std::string("no ground under foot ") + kLegNames[k] + "; choose a start on firm floor");
     points[k] = foot->position;
   }
   return points;
@@ -52,8 +53,7 @@ Stance standBelow(const MeshScene& scene, const WorldMesh& mesh, const WalkerPar
                   const Pose& start) {
   const FootholdSearch ground(scene, params);
   const Vector3d middle = groundUnder(ground, mesh, start);
-  const GroundPlane plane =
-      planeThrough(underTheHips(ground, mesh, params, start, middle));
+  const GroundPlane plane = planeThrough(underTheHips(ground, mesh, params, start, middle));
   if (const double slope = std::atan(plane.slope.norm()) * 180.0 / M_PI; slope > kSlopeMax_deg) {
     std::ostringstream text;
     text << "the ground rises by " << slope << " degrees, the limit is " << kSlopeMax_deg
@@ -74,8 +74,9 @@ Stance standBelow(const MeshScene& scene, const WorldMesh& mesh, const WalkerPar
     const Leg leg(params, k);
     const auto hold = ground.find(leg, T_world_base, T_world_base * leg.root());
     if (!hold)
-      refuse(start, mesh,
-             std::string("foot ") + kLegNames[k] + " finds no place to stand; choose a flatter one");
+      refuse(
+          start, mesh,
+          std::string("foot ") + kLegNames[k] + " finds no place to stand; choose a flatter one");
     stance.holds[k] = *hold;
   }
   return stance;

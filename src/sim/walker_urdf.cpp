@@ -26,7 +26,8 @@ class Writer {
             const char* material) {
     text_ << "  <link name=\"" << name << "\">\n    <visual>\n      <origin xyz=\""
           << numbers(centre) << "\" rpy=\"0 0 0\"/>\n      <geometry>" << shape
-          << "</geometry>\n      <material name=\"" << material << "\"/>\n    </visual>\n  </link>\n";
+          << "</geometry>\n      <material name=\"" << material
+          << "\"/>\n    </visual>\n  </link>\n";
   }
 
   void fixed(const std::string& name, const std::string& parent, const std::string& child,

@@ -153,8 +153,8 @@ TEST(Walker, TrajectoryWaitsForARobotThatIsHeldUp) {
   double worst_off_m = 0.0;
   for (double t = 0.1; t < 40.0; t += 0.1) {
     sim.advanceTo(t);
-    worst_off_m = std::max(
-        worst_off_m, test::offLine(corners, sim.trueState().pose.position.head<2>()));
+    worst_off_m =
+        std::max(worst_off_m, test::offLine(corners, sim.trueState().pose.position.head<2>()));
   }
   EXPECT_LT(worst_off_m, 0.45) << "it cut the corner";
   EXPECT_LT((sim.trueState().pose.position.head<2>() - Vector2d(6, 6)).norm(), 0.15);
@@ -270,8 +270,8 @@ TEST(Walker, StandsOnTheGroundBelowItsStart) {
   const Simulator sim({}, test::walkerModel(), test::ramp(20.0F, 3.0F), {{4.5, 0, 1.9}, 0.0}, 1);
   const double ground = 1.5 * std::tan(20.0 * M_PI / 180.0);
   EXPECT_NEAR(sim.trueState().pose.position.z(), ground + 0.5, 0.02);
-  EXPECT_NEAR((sim.trueState().orientation * Vector3d::UnitX()).z(),
-              std::sin(20.0 * M_PI / 180.0), 0.02);
+  EXPECT_NEAR((sim.trueState().orientation * Vector3d::UnitX()).z(), std::sin(20.0 * M_PI / 180.0),
+              0.02);
 }
 
 TEST(Walker, NamesAnImpossibleStart) {

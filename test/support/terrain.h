@@ -34,9 +34,9 @@ inline sim::WorldMesh profile(const std::vector<Eigen::Vector2f>& points, float 
 inline sim::WorldMesh ramp(float degrees, float run_m) {
   const float rise = run_m * std::tan(degrees * static_cast<float>(M_PI) / 180.0F);
   const float top = 3.0F + run_m;
-  return profile({{-5, 0}, {3, 0}, {top, rise}, {top + 3, rise}, {top + 3 + run_m, 0},
-                  {top + run_m + 12, 0}},
-                 8.0F);
+  return profile(
+      {{-5, 0}, {3, 0}, {top, rise}, {top + 3, rise}, {top + 3 + run_m, 0}, {top + run_m + 12, 0}},
+      8.0F);
 }
 
 /// `count` steps up from x = 3, 2 m flat, and the same down again.
@@ -61,7 +61,11 @@ inline sim::WorldMesh step(float rise_m) {
 
 /// Flat ground with a trench across from x = 3.
 inline sim::WorldMesh trench(float depth_m, float width_m) {
-  return profile({{-5, 0}, {3, 0}, {3, -depth_m}, {3 + width_m, -depth_m}, {3 + width_m, 0},
+  return profile({{-5, 0},
+                  {3, 0},
+                  {3, -depth_m},
+                  {3 + width_m, -depth_m},
+                  {3 + width_m, 0},
                   {12 + width_m, 0}},
                  8.0F);
 }

@@ -90,8 +90,8 @@ inline Walked walk(sim::Simulator& sim, const std::vector<Eigen::Vector2d>& corn
     const RobotState state = sim.trueState();
     const Eigen::Vector3d& at = state.pose.position;
     const double upright = (state.orientation * Eigen::Vector3d::UnitZ()).z();
-    walked.worst_tilt_deg = std::max(walked.worst_tilt_deg,
-                                     std::acos(std::clamp(upright, -1.0, 1.0)) * 180.0 / M_PI);
+    walked.worst_tilt_deg =
+        std::max(walked.worst_tilt_deg, std::acos(std::clamp(upright, -1.0, 1.0)) * 180.0 / M_PI);
     walked.worst_off_m = std::max(walked.worst_off_m, offLine(corners, at.head<2>()));
     walked.lowest_z = std::min(walked.lowest_z, at.z());
     walked.highest_z = std::max(walked.highest_z, at.z());

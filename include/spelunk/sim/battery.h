@@ -8,9 +8,9 @@ namespace spelunk::sim {
 /// What a robot draws: at rest, and more with its speed.
 struct PowerModel {
   double rest_w = 350.0;
-  double per_mps_w = 0.0;             ///< Times speed.
-  double per_mps2_w = 12.0;           ///< Times speed squared.
-  double typical_speed_share = 0.7;   ///< Of the cruising speed: what the endurance is meant for.
+  double per_mps_w = 0.0;            ///< Times speed.
+  double per_mps2_w = 12.0;          ///< Times speed squared.
+  double typical_speed_share = 0.7;  ///< Of the cruising speed: what the endurance is meant for.
 };
 
 /// The power of a flying robot: typical flight is at 0.7 of the cruising speed (r.m.s., stops

@@ -147,8 +147,8 @@ class Simulator {
   [[nodiscard]] const MeshScene& scene() const;
   [[nodiscard]] Eigen::Vector3d bodySize() const;  ///< Full extents of the body that collides.
 
-  [[nodiscard]] WalkerCount walkerCount() const;       ///< Zeros for an aerial robot.
-  [[nodiscard]] JointState joints() const;             ///< Empty for an aerial robot.
+  [[nodiscard]] WalkerCount walkerCount() const;      ///< Zeros for an aerial robot.
+  [[nodiscard]] JointState joints() const;            ///< Empty for an aerial robot.
   [[nodiscard]] std::vector<FootState> feet() const;  ///< Empty for an aerial robot.
 
  private:

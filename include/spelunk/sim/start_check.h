@@ -16,8 +16,7 @@ void requireInside(const WorldMesh& mesh, const Pose& start);
 
 /// Throws OutsideError if an axis-aligned box of `size_m` around `position` meets the mesh;
 /// `size_key` is the parameter that sets its size.
-void requireFreeBody(const MeshScene& scene, const WorldMesh& mesh,
-                     const Eigen::Vector3d& position, const Eigen::Vector3d& size_m,
-                     const std::string& size_key);
+void requireFreeBody(const MeshScene& scene, const WorldMesh& mesh, const Eigen::Vector3d& position,
+                     const Eigen::Vector3d& size_m, const std::string& size_key);
 
 }  // namespace spelunk::sim

@@ -38,8 +38,7 @@ class Walker : public Vehicle {
  private:
   Walker(const WalkerParams& params, const RobotModel& robot, const WorldMesh& mesh,
          const MeshScene& scene, const Stance& stance);
-  void control(double step_s, double time_s, const BodyState& estimate,
-               MotionReference& reference);
+  void control(double step_s, double time_s, const BodyState& estimate, MotionReference& reference);
   void push(double step_s);
   [[nodiscard]] bool hasLostBalance() const;
   void watchForFall(double step_s);
