@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <cmath>
 
 #include "spelunk/sim/winding.h"
 #include "spelunk/sim/world_kinds.h"
@@ -42,8 +41,8 @@ struct Layout {
   /// A ramp down from `level`, beside the heading at `heading_y` on its outer `side` (-1 or 1).
   /// From the heading's place `x` it goes out, down towards +x, and back to the heading below.
   void addRamp(int level, double x, double heading_y, double side) {
-    const double degrees = rng.uniform(params.slope_min_deg, params.slope_max_deg);
-    const double run = params.level_drop_m / std::tan(degrees * M_PI / 180.0);
+    const double percent = rng.uniform(params.grade_min_percent, params.grade_max_percent);
+    const double run = params.level_drop_m / (percent / 100.0);
     const double y = heading_y + side * kRampOffset_m;
     const double upper = floorOf(level);
     const double lower = floorOf(level + 1);

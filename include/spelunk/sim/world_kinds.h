@@ -125,8 +125,8 @@ struct RampsParams {
   double heading_spacing_m = 20.0;
   double crosscut_pitch_m = 22.0;
   double level_drop_m = 6.0;
-  double slope_min_deg = 10.0;
-  double slope_max_deg = 20.0;
+  double grade_min_percent = 18.0;
+  double grade_max_percent = 36.0;
   double width_min_m = 2.8;
   double width_max_m = 4.0;
   double height_m = 3.0;
@@ -138,8 +138,8 @@ struct RampsParams {
     field("heading_spacing_m", heading_spacing_m, Bounds{10.0, 100.0}, "between the headings");
     field("crosscut_pitch_m", crosscut_pitch_m, Bounds{10.0, 200.0}, "from crosscut to crosscut");
     field("level_drop_m", level_drop_m, Bounds{4.0, 10.0}, "from level to level");
-    field("slope_min_deg", slope_min_deg, Bounds{8.0, 30.0}, "gentlest ramp");
-    field("slope_max_deg", slope_max_deg, Bounds{8.0, 30.0}, "steepest ramp");
+    field("grade_min_percent", grade_min_percent, Bounds{10.0, 60.0}, "gentlest ramp");
+    field("grade_max_percent", grade_max_percent, Bounds{10.0, 60.0}, "steepest ramp");
     field("width_min_m", width_min_m, Bounds{1.8, 8.0}, "narrowest heading");
     field("width_max_m", width_max_m, Bounds{1.8, 8.0}, "widest heading");
     field("height_m", height_m, Bounds{1.8, 3.5}, "floor to roof");
@@ -151,11 +151,11 @@ struct RampsParams {
 /// Steps that are too high for legs, and all holes, leave a way round on one side; the middle
 /// crosscut is closed to legs by the highest step.
 struct RoughParams {
-  double length_m = 48.0;
+  double length_m = 60.0;
   double spacing_m = 18.0;
   double width_m = 4.6;
   double height_m = 3.2;
-  double obstacle_pitch_m = 5.0;
+  double obstacle_pitch_m = 4.5;
   double rubble_max_m = 0.2;
   double step_min_m = 0.05;
   double step_max_m = 0.4;
