@@ -9,7 +9,7 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr int kLevels = 3;
-constexpr double kLanding_m = 3.0;    ///< Level ground before and after each ramp.
+constexpr double kLanding_m = 3.0;     ///< Level ground before and after each ramp.
 constexpr double kRampOffset_m = 8.0;  ///< Ramps run so far beside the outer headings.
 
 struct Layout {
@@ -20,12 +20,8 @@ struct Layout {
   [[nodiscard]] double floorOf(int level) const { return -level * params.level_drop_m; }
 
   void addDrift(const Vector3d& from, const Vector3d& to) {
-    const Winding straight{0.0,
-                           params.width_min_m,
-                           params.width_max_m,
-                           params.height_m,
-                           params.height_m,
-                           4.0};
+    const Winding straight{
+        0.0, params.width_min_m, params.width_max_m, params.height_m, params.height_m, 4.0};
     plan.passages.push_back(windingPassage(from, to, straight, rng));
   }
 
@@ -52,8 +48,7 @@ struct Layout {
     for (const Vector3d& floor :
          {Vector3d(x, heading_y, upper), Vector3d(x, y, upper), Vector3d(x + kLanding_m, y, upper),
           Vector3d(x + kLanding_m + 0.5 * run, y, 0.5 * (upper + lower)),
-          Vector3d(x + kLanding_m + run, y, lower),
-          Vector3d(x + 2.0 * kLanding_m + run, y, lower)})
+          Vector3d(x + kLanding_m + run, y, lower), Vector3d(x + 2.0 * kLanding_m + run, y, lower)})
       ramp.stations.push_back({floor, width, params.height_m});
     plan.passages.push_back(ramp);
     const double back_x = x + 2.0 * kLanding_m + run;

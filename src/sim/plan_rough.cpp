@@ -16,18 +16,15 @@ struct Layout {
   Rng rng;
 
   void addDrift(const Vector3d& from, const Vector3d& to) {
-    const Winding straight{0.0,
-                           params.width_m,
-                           params.width_m,
-                           params.height_m,
-                           params.height_m,
+    const Winding straight{0.0, params.width_m, params.width_m, params.height_m, params.height_m,
                            4.0};
     plan.passages.push_back(windingPassage(from, to, straight, rng));
   }
 
   /// A block of `height` on the floor around (x, y).
   void addBlock(double x, double y, double length, double width, double height) {
-    plan.blocks.push_back({{x, y, 0.5 * (height - kAnchor_m)}, {length, width, height + kAnchor_m}});
+    plan.blocks.push_back(
+        {{x, y, 0.5 * (height - kAnchor_m)}, {length, width, height + kAnchor_m}});
   }
 
   void addRubble(double x, double y) {

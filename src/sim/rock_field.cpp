@@ -60,7 +60,12 @@ RockField::RockField(const WorldPlan& plan)
   int group = 0;
   for (const Passage& passage : plan.passages) {
     for (std::size_t i = 1; i < passage.stations.size(); ++i)
-      add({Shape::kSegment, group, passage.stations[i - 1], passage.stations[i], {}, {},
+      add({Shape::kSegment,
+           group,
+           passage.stations[i - 1],
+           passage.stations[i],
+           {},
+           {},
            passage.root_m});
     ++group;
   }

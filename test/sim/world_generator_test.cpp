@@ -170,7 +170,8 @@ TEST_P(ShippedMine, IsNowhereNarrowerThanPlanned) {
   EXPECT_EQ(narrower, 0) << "of " << measured;
 }
 
-INSTANTIATE_TEST_SUITE_P(All, ShippedMine, testing::Values("long_wall", "room_and_pillar", "cave", "ramps", "rough"),
+INSTANTIATE_TEST_SUITE_P(All, ShippedMine,
+                         testing::Values("long_wall", "room_and_pillar", "cave", "ramps", "rough"),
                          [](const auto& instance) { return std::string(instance.param); });
 
 /// Whether the way to a hit leads through solid rock.
@@ -258,8 +259,7 @@ TEST(Ramps, AShaftLeadsStraightDownToTheNextLevel) {
   ASSERT_EQ(at.plan.halls.size(), 1U);
   const Eigen::Vector3d middle(at.plan.halls[0].floor.x(), at.plan.halls[0].floor.y(), 0.0);
   EXPECT_NEAR(groundAt(at, middle + Eigen::Vector3d(0, 0, 1)), -6.0, 0.15);
-  for (double z = 1.0; z > -5.0; z -= 0.25)
-    EXPECT_TRUE(at.fits({middle.x(), middle.y(), z})) << z;
+  for (double z = 1.0; z > -5.0; z -= 0.25) EXPECT_TRUE(at.fits({middle.x(), middle.y(), z})) << z;
   const Eigen::Vector3d before = middle - Eigen::Vector3d(3.2, 0, -1);
   EXPECT_NEAR(groundAt(at, before), 0.0, 0.15) << "the heading ends before the shaft";
 }
