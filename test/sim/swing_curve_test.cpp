@@ -42,7 +42,8 @@ TEST(SwingCurve, ClearsAnObstacleBetweenItsEnds) {
   EXPECT_NEAR(curve.top(), 0.15 + 0.08, 1e-6);
   for (int k = 0; k <= 100; ++k) {
     const Vector3d foot = curve.at(0.01 * k);
-    if (foot.x() > 0.1 && foot.x() < 0.22) EXPECT_GT(foot.z(), 0.17) << foot.transpose();
+    if (foot.x() <= 0.1 || foot.x() >= 0.22) continue;
+    EXPECT_GT(foot.z(), 0.17) << foot.transpose();
   }
 }
 
