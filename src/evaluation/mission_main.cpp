@@ -58,7 +58,7 @@ Loaded load(const Options& options) {
   loaded.share_dir = spelunk::mission::shareDir();
   loaded.config = spelunk::mission::loadRunConfig(
       {loaded.share_dir, options.robot, options.planner, options.assignments});
-  loaded.config.tree.read("sim", loaded.sim);
+  loaded.sim = spelunk::sim::readSimParams(loaded.config.tree);
   loaded.planner = spelunk::planners::makePlanner(
       options.planner, loaded.config.tree, loaded.config.robot, loaded.config.map.resolution_m);
   loaded.config.tree.requireClean();

@@ -74,7 +74,7 @@ void MissionRun::Impl::measure() {
   record.path_length_m += (position - last_position).norm();
   last_position = position;
   const double gap =
-      simulator.scene().boxDistance(position, setup.sim.body_m, record.min_clearance_m);
+      simulator.scene().boxDistance(position, simulator.bodySize(), record.min_clearance_m);
   record.min_clearance_m = std::min(record.min_clearance_m, gap);
 }
 

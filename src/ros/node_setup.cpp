@@ -52,7 +52,7 @@ mission::RunConfig loadConfig(const PrivateParams& given, const Params& params,
   addTo(config.tree, given.own);
   Params own;
   config.tree.read("node", own);
-  config.tree.read("sim", sim);
+  sim = sim::readSimParams(config.tree);
   config.tree.read("cloud", cloud);
   for (const std::string& problem : cloud.problems()) config.tree.addProblem(problem);
   return config;

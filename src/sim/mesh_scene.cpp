@@ -20,6 +20,9 @@ namespace {
 /// Rays traced together. Neighbouring rays of a scan stay in one packet: they walk the same nodes.
 constexpr std::size_t kPacket = 8;
 
+/// Packets traced together; Embree walks a stream of them through the tree as one.
+constexpr std::size_t kPackets = 8;
+
 /// Farther off from Embree's range (metres), the range to a triangle's plane is not believed.
 constexpr float kRangeDoubt = 0.01F;
 
@@ -102,23 +105,29 @@ bool visitTriangleForPoint(RTCPointQueryFunctionArguments* arguments) {
   return true;
 }
 
-void fillPacket(const Eigen::Vector3f& origin, const Eigen::Vector3f* directions, std::size_t count,
-                float range_max, RTCRayHit8& packet) {
+/// What all rays of a fan share; Embree leaves it as it is.
+void setOrigin(const Eigen::Vector3f& origin, RTCRayHit8& packet) {
   for (std::size_t k = 0; k < kPacket; ++k) {
-    const Eigen::Vector3f& direction = directions[std::min(k, count - 1)];
     packet.ray.org_x[k] = origin.x();
     packet.ray.org_y[k] = origin.y();
     packet.ray.org_z[k] = origin.z();
-    packet.ray.dir_x[k] = direction.x();
-    packet.ray.dir_y[k] = direction.y();
-    packet.ray.dir_z[k] = direction.z();
     packet.ray.tnear[k] = 0.0F;
-    packet.ray.tfar[k] = range_max;
     packet.ray.mask[k] = ~0U;
     packet.ray.flags[k] = 0;
     packet.ray.time[k] = 0.0F;
-    packet.hit.geomID[k] = RTC_INVALID_GEOMETRY_ID;
     packet.hit.instID[0][k] = RTC_INVALID_GEOMETRY_ID;
+  }
+}
+
+void aim(const Eigen::Vector3f* directions, std::size_t count, float range_max,
+         RTCRayHit8& packet) {
+  for (std::size_t k = 0; k < kPacket; ++k) {
+    const Eigen::Vector3f& direction = directions[std::min(k, count - 1)];
+    packet.ray.dir_x[k] = direction.x();
+    packet.ray.dir_y[k] = direction.y();
+    packet.ray.dir_z[k] = direction.z();
+    packet.ray.tfar[k] = range_max;
+    packet.hit.geomID[k] = RTC_INVALID_GEOMETRY_ID;
   }
 }
 
@@ -199,19 +208,50 @@ void MeshScene::castFan(const Eigen::Vector3f& origin,
   RTCIntersectContext context;
   rtcInitIntersectContext(&context);
   context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
-  alignas(32) RTCRayHit8 packet;
-  alignas(32) std::array<int, kPacket> valid{};
-  for (std::size_t first = 0; first < directions.size(); first += kPacket) {
-    const std::size_t count = std::min(kPacket, directions.size() - first);
-    for (std::size_t k = 0; k < kPacket; ++k) valid[k] = k < count ? -1 : 0;
-    fillPacket(origin, &directions[first], count, range_max, packet);
-    rtcIntersect8(valid.data(), impl_->scene, &context, &packet);
-    for (std::size_t k = 0; k < count; ++k)
-      ranges[first + k] = packet.hit.geomID[k] == RTC_INVALID_GEOMETRY_ID
+  alignas(32) std::array<RTCRayHit8, kPackets> packets;
+  for (RTCRayHit8& packet : packets) setOrigin(origin, packet);
+  const Eigen::Vector3d from = origin.cast<double>();
+  for (std::size_t first = 0; first < directions.size(); first += kPackets * kPacket) {
+    const std::size_t count = std::min(kPackets * kPacket, directions.size() - first);
+    const std::size_t filled = (count + kPacket - 1) / kPacket;
+    for (std::size_t k = 0; k < filled; ++k)
+      aim(&directions[first + k * kPacket], std::min(kPacket, count - k * kPacket), range_max,
+          packets[k]);
+    rtcIntersectNM(impl_->scene, &context, reinterpret_cast<RTCRayHitN*>(packets.data()), kPacket,
+                   static_cast<unsigned>(filled), sizeof(RTCRayHit8));
+    for (std::size_t k = 0; k < count; ++k) {
+      const RTCRayHit8& packet = packets[k / kPacket];
+      const std::size_t lane = k % kPacket;
+      ranges[first + k] = packet.hit.geomID[lane] == RTC_INVALID_GEOMETRY_ID
                               ? range_max
-                              : impl_->rangeTo(packet.hit.primID[k], origin.cast<double>(),
-                                               directions[first + k], packet.ray.tfar[k]);
+                              : impl_->rangeTo(packet.hit.primID[lane], from, directions[first + k],
+                                               packet.ray.tfar[lane]);
+    }
   }
+}
+
+std::optional<RayHit> MeshScene::castRay(const Eigen::Vector3d& origin,
+                                         const Eigen::Vector3d& direction, double range_max) const {
+  const Eigen::Vector3f from = origin.cast<float>();
+  const Eigen::Vector3f along = direction.cast<float>();
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  alignas(16) RTCRayHit query{};
+  query.ray.org_x = from.x();
+  query.ray.org_y = from.y();
+  query.ray.org_z = from.z();
+  query.ray.dir_x = along.x();
+  query.ray.dir_y = along.y();
+  query.ray.dir_z = along.z();
+  query.ray.tfar = static_cast<float>(range_max);
+  query.ray.mask = ~0U;
+  query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+  query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+  rtcIntersect1(impl_->scene, &context, &query);
+  if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
+  const Eigen::Vector3d normal = impl_->planes[query.hit.primID].normal.normalized();
+  return RayHit{impl_->rangeTo(query.hit.primID, from.cast<double>(), along, query.ray.tfar),
+                normal.dot(direction) > 0.0 ? Eigen::Vector3d(-normal) : normal};
 }
 
 double MeshScene::distanceTo(const Eigen::Vector3d& point, double limit_m) const {

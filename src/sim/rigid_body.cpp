@@ -11,7 +11,6 @@ namespace {
 
 using Construction = btRigidBody::btRigidBodyConstructionInfo;
 
-constexpr double kFriction = 0.3;  ///< Slides along a wall rather than catching on it.
 constexpr double kRestitution = 0.1;
 constexpr double kMeshMargin = 0.005;  ///< Metres from the mesh at which contact begins.
 
@@ -45,7 +44,8 @@ std::unique_ptr<btTriangleIndexVertexArray> inPlace(const std::vector<Eigen::Vec
 }  // namespace
 
 struct RigidBody::Impl {
-  Impl(const WorldMesh& mesh, const Shape& shape, const Pose& start)
+  Impl(const WorldMesh& mesh, const Shape& shape, const Eigen::Vector3d& position,
+       const Eigen::Quaterniond& turn)
       : vertices(mesh.vertices),
         indices(mesh.triangles),
         triangles(inPlace(vertices, indices)),
@@ -63,13 +63,12 @@ struct RigidBody::Impl {
     world.setForceUpdateAllAabbs(false);
     world.setGravity({0.0, 0.0, -kGravity});
     mesh_shape.setMargin(kMeshMargin);
-    const Eigen::Quaterniond turn(Eigen::AngleAxisd(start.yaw, Eigen::Vector3d::UnitZ()));
-    body.setWorldTransform(btTransform(btQuaternion(turn.x(), turn.y(), turn.z(), turn.w()),
-                                       toBullet(start.position)));
+    body.setWorldTransform(
+        btTransform(btQuaternion(turn.x(), turn.y(), turn.z(), turn.w()), toBullet(position)));
     body.setInterpolationWorldTransform(body.getWorldTransform());
     body.setActivationState(DISABLE_DEACTIVATION);
     for (btRigidBody* part : {&ground, &body}) {
-      part->setFriction(kFriction);
+      part->setFriction(shape.friction);
       part->setRestitution(kRestitution);
       world.addRigidBody(part);
     }
@@ -93,12 +92,14 @@ struct RigidBody::Impl {
   btBoxShape box_shape;
   btRigidBody ground;
   btRigidBody body;
+  double last_step_s = 0.0;
 };
 
-RigidBody::RigidBody(const WorldMesh& mesh, const Shape& shape, const Pose& start) {
+RigidBody::RigidBody(const WorldMesh& mesh, const Shape& shape, const Eigen::Vector3d& position,
+                     const Eigen::Quaterniond& orientation) {
   require(!mesh.triangles.empty(), "RigidBody: the mesh holds no triangles");
   require(shape.mass_kg > 0.0, "RigidBody: mass must be positive");
-  impl_ = std::make_unique<Impl>(mesh, shape, start);
+  impl_ = std::make_unique<Impl>(mesh, shape, position, orientation);
 }
 RigidBody::~RigidBody() = default;
 RigidBody::RigidBody(RigidBody&&) noexcept = default;
@@ -108,6 +109,7 @@ void RigidBody::step(double step_s, const Wrench& wrench, const Eigen::Vector3d&
   const btMatrix3x3& attitude = body.getWorldTransform().getBasis();
   body.applyCentralForce(attitude.getColumn(2) * wrench.thrust_n + toBullet(outer_force_n));
   body.applyTorque(attitude * toBullet(wrench.torque_nm));
+  impl_->last_step_s = step_s;
   impl_->world.stepSimulation(step_s, 0);  // 0 sub-steps: exactly one step of this length
 }
 
@@ -132,6 +134,20 @@ bool RigidBody::isInContact() const {
     }
   }
   return false;
+}
+
+Eigen::Vector3d RigidBody::contactForce() const {
+  btVector3 impulse(0.0, 0.0, 0.0);
+  for (int m = 0; m < impl_->dispatcher.getNumManifolds(); ++m) {
+    const btPersistentManifold* manifold = impl_->dispatcher.getManifoldByIndexInternal(m);
+    const double sign = manifold->getBody0() == &impl_->body ? 1.0 : -1.0;
+    for (int c = 0; c < manifold->getNumContacts(); ++c) {
+      const btManifoldPoint& contact = manifold->getContactPoint(c);
+      impulse += sign * contact.getAppliedImpulse() * contact.m_normalWorldOnB;
+    }
+  }
+  return impl_->last_step_s > 0.0 ? Eigen::Vector3d(toEigen(impulse) / impl_->last_step_s)
+                                  : Eigen::Vector3d::Zero();
 }
 
 }  // namespace spelunk::sim

@@ -9,7 +9,6 @@ namespace spelunk::sim {
 namespace {
 
 constexpr double kRock = 1e3;
-constexpr double kBelowFloor = 0.8;  ///< How far a space's body reaches under its own floor.
 
 constexpr double kContrast = 1.7;  ///< Value noise seldom comes near its ends.
 
@@ -24,19 +23,50 @@ double roundedCorner(double qx, double qy, double radius) {
   return outside + std::min(std::max(x, y), 0.0) - radius;
 }
 
+/// Signed distance to a box, negative inside.
+double boxDistance(const Eigen::Vector3d& from_centre, const Eigen::Vector3d& half) {
+  const Eigen::Vector3d q = from_centre.cwiseAbs() - half;
+  return q.cwiseMax(0.0).norm() + std::min(q.maxCoeff(), 0.0);
+}
+
+constexpr double kPitRim = 0.3;  ///< A pit's box reaches so far above the floor.
+
+AxisAlignedBox boxOf(const Block& block) {
+  return {block.centre - 0.5 * block.size, block.centre + 0.5 * block.size};
+}
+
+AxisAlignedBox boxOf(const Pit& pit) {
+  const Eigen::Vector3d half(0.5 * pit.size.x(), 0.5 * pit.size.y(), 0.0);
+  return {pit.top - half - Eigen::Vector3d(0.0, 0.0, pit.depth),
+          pit.top + half + Eigen::Vector3d(0.0, 0.0, kPitRim)};
+}
+
+double distanceTo(const AxisAlignedBox& box, const Eigen::Vector3d& point) {
+  return boxDistance(point - 0.5 * (box.min + box.max), 0.5 * (box.max - box.min));
+}
+
 }  // namespace
 
 RockField::RockField(const WorldPlan& plan)
     : pillars_(plan.pillars),
+      blocks_(plan.blocks),
+      pits_(plan.pits),
       roughness_m_(plan.roughness_m),
       blend_m_(plan.blend_m),
       grain_m_(plan.grain_m),
       cell_m_(plan.cell_m),
       seed_(plan.seed) {
+  for (const Pit& pit : pits_) deepest_pit_m_ = std::max(deepest_pit_m_, pit.depth);
   int group = 0;
   for (const Passage& passage : plan.passages) {
     for (std::size_t i = 1; i < passage.stations.size(); ++i)
-      add({Shape::kSegment, group, passage.stations[i - 1], passage.stations[i], {}, {}});
+      add({Shape::kSegment,
+           group,
+           passage.stations[i - 1],
+           passage.stations[i],
+           {},
+           {},
+           passage.root_m});
     ++group;
   }
   for (const Chamber& chamber : plan.chambers)
@@ -55,7 +85,7 @@ void RockField::add(Space space) {
                     Eigen::Vector3d(half_x, half_y, std::max(space.a.height, other.height));
   const Eigen::Vector3d margin =
       Eigen::Vector3d::Constant(roughness_m_ + blend_m_ / 4.0 + 2.0 * cell_m_);
-  space.reach.min -= margin;
+  space.reach.min -= margin + Eigen::Vector3d(0.0, 0.0, deepest_pit_m_);
   space.reach.max += margin;
   spaces_.push_back(space);
 }
@@ -76,6 +106,10 @@ RockField::Selection RockField::select(const AxisAlignedBox& region) const {
     touches = touches || !intersection(spaces_[i].reach, region).isEmpty();
     selection.spaces.push_back(i);
   }
+  for (std::size_t i = 0; i < blocks_.size(); ++i)
+    if (!intersection(boxOf(blocks_[i]), near).isEmpty()) selection.blocks.push_back(i);
+  for (std::size_t i = 0; i < pits_.size(); ++i)
+    if (!intersection(boxOf(pits_[i]), near).isEmpty()) selection.pits.push_back(i);
   return touches ? selection : Selection{};
 }
 
@@ -90,7 +124,7 @@ RockField::Sample RockField::sampleSegment(const Space& space, const Eigen::Vect
   const double floor = mix(space.a.floor.z(), space.b.floor.z(), t);
   const double arch = 0.7 * std::min(half_width, height / 2.0);
   const double above = roundedCorner(lateral - half_width, point.z() - floor - height, arch);
-  return {std::max(above, floor - kBelowFloor - point.z()), floor};
+  return {std::max(above, floor - space.root_m - point.z()), floor};
 }
 
 RockField::Sample RockField::sampleChamber(const Space& space, const Eigen::Vector3d& point) {
@@ -110,7 +144,7 @@ RockField::Sample RockField::sampleHall(const Space& space, const Eigen::Vector3
   const double walls = roundedCorner(q.x(), q.y(), kEdgeRadius);
   const double floor = space.a.floor.z();
   const double above = roundedCorner(walls, point.z() - floor - space.a.height, kEdgeRadius);
-  return {std::max(above, floor - kBelowFloor - point.z()), floor};
+  return {std::max(above, floor - space.root_m - point.z()), floor};
 }
 
 RockField::Sample RockField::sample(const Space& space, const Eigen::Vector3d& point) {
@@ -154,9 +188,18 @@ double RockField::roughness(const Eigen::Vector3d& point, double above_floor) co
   return roughness_m_ * mix(0.25, 1.0, wall_share) * (0.7 * coarse + 0.3 * fine);
 }
 
+double RockField::withFloorFeatures(double value, const Eigen::Vector3d& point,
+                                    const Selection& selection) const {
+  for (const std::size_t i : selection.pits)
+    value = std::min(value, distanceTo(boxOf(pits_[i]), point));
+  for (const std::size_t i : selection.blocks)
+    value = std::max(value, -distanceTo(boxOf(blocks_[i]), point));
+  return value;
+}
+
 double RockField::at(const Eigen::Vector3d& point, const Selection& selection) const {
   const Sample free = blended(point, selection);
-  double value = std::max(free.body, free.floor - point.z());
+  double value = withFloorFeatures(std::max(free.body, free.floor - point.z()), point, selection);
   for (const Pillar& pillar : pillars_) {
     constexpr double kEdgeRadius = 0.3;
     const Eigen::Vector2d q = (point.head<2>() - pillar.centre).cwiseAbs() - pillar.size / 2.0;

@@ -7,23 +7,17 @@
 
 #include "spelunk/common/contract.h"
 #include "spelunk/sim/battery.h"
-#include "spelunk/sim/flight_controller.h"
+#include "spelunk/sim/multirotor.h"
 #include "spelunk/sim/odometry.h"
 #include "spelunk/sim/range_sensor.h"
-#include "spelunk/sim/rigid_body.h"
-#include "spelunk/sim/rotors.h"
+#include "spelunk/sim/start_check.h"
+#include "spelunk/sim/walker.h"
 
 namespace spelunk::sim {
 namespace {
 
 constexpr double kEpisodeGap = 0.5;      ///< Seconds parted after which a contact counts anew.
 constexpr double kTimeTolerance = 1e-9;  ///< Seconds.
-
-std::string textOf(const Pose& pose) {
-  std::ostringstream text;
-  text << "(" << pose.position.x() << ", " << pose.position.y() << ", " << pose.position.z() << ")";
-  return text.str();
-}
 
 void requireUsable(const SimParams& params, const WorldMesh& mesh) {
   if (mesh.triangles.empty()) throw OutsideError("world '" + mesh.name + "' holds no triangles");
@@ -40,22 +34,6 @@ void requireFollowable(const Trajectory& trajectory) {
     require(point.time_s > last_s, "Simulator::follow: times do not rise");
     last_s = point.time_s;
   }
-}
-
-/// Refuses a start from which no flight can begin.
-void requireFreeStart(const MeshScene& scene, const WorldMesh& mesh, const SimParams& params,
-                      const Pose& start) {
-  if (!isFinite(start)) throw OutsideError("start pose is not finite; give numbers x,y,z,yaw");
-  if (!mesh.bounds().contains(start.position))
-    throw OutsideError("start " + textOf(start) + " lies outside the world '" + mesh.name +
-                       "'; give a start inside the mesh (--start x,y,z,yaw)");
-  if (scene.boxDistance(start.position, params.body_m, 1.0) > 0.0) return;
-  std::ostringstream text;
-  text << "start " << textOf(start) << " is in collision with the world '" << mesh.name
-       << "': clearance " << scene.distanceTo(start.position, 100.0)
-       << " m from the centre, the body is " << params.body_m.transpose()
-       << " m; choose a start farther from walls (--start x,y,z,yaw) or a smaller sim.body_m";
-  throw OutsideError(text.str());
 }
 
 /// Counts contacts: one episode until parted for kEpisodeGap.
@@ -91,6 +69,20 @@ RobotState toRobotState(double stamp_s, const BodyState& body) {
   return state;
 }
 
+/// What a drive command lost to the limits.
+std::string reductionText(const DriveCommand& wanted, const DriveCommand& executed) {
+  std::ostringstream text;
+  const auto compare = [&](const char* what, double from, double to, const char* unit) {
+    if (from != to)
+      text << (text.str().empty() ? "" : ", ") << what << " " << from << " to " << to << " "
+           << unit;
+  };
+  compare("forward", wanted.forward_mps, executed.forward_mps, "m/s");
+  compare("sideways", wanted.sideways_mps, executed.sideways_mps, "m/s");
+  compare("yaw rate", wanted.yaw_rate_radps, executed.yaw_rate_radps, "rad/s");
+  return text.str().empty() ? "" : "drive command above the robot's limits, reduced: " + text.str();
+}
+
 }  // namespace
 
 std::vector<std::string> SimParams::problems() const {
@@ -102,26 +94,44 @@ std::vector<std::string> SimParams::problems() const {
   return found;
 }
 
+SimParams readSimParams(ParamTree& tree) {
+  SimParams params;
+  tree.read("sim", params);
+  tree.read("walker", params.walker);
+  for (const std::string& problem : params.problems()) tree.addProblem(problem);
+  for (const std::string& problem : params.walker.problems()) tree.addProblem(problem);
+  return params;
+}
+
 struct Simulator::Impl {
   Impl(const SimParams& sim_params, const RobotModel& robot, const WorldMesh& mesh,
        const Pose& start, std::uint64_t seed)
       : params(sim_params),
-        braking_mps2(robot.braking_deceleration_mps2),
         scene(mesh),
-        airframe{params.mass_kg, params.inertia_kgm2, params.drag_coefficient,
-                 params.thrust_to_weight * params.mass_kg * kGravity},
-        rotors(params.rotors, params.rotor_arm_m, params.rotor_lag_s, airframe.thrust_max_n),
-        body(mesh, {params.mass_kg, params.inertia_kgm2, params.body_m}, start),
-        battery(params, robot),
-        odometry(params.odometry_drift, params.odometry_noise_m, body.state(),
-                 Rng(seed).fork("sim/odometry")) {
-    requireFreeStart(scene, mesh, params, start);
+        vehicle(makeVehicle(robot, mesh, start)),
+        limits(limitsFor(robot)),
+        battery(walker ? walkingPower(params.walker) : flightPower(params), params.battery_wh,
+                robot),
+        odometry(params.odometry_drift, params.odometry_noise_m, vehicle->state(),
+                 Rng(seed).fork("sim/odometry")),
+        reference(start, robot.braking_deceleration_mps2) {
     for (const SensorModel& model : robot.sensor_models)
       sensors.emplace_back(model, params.dust_returns, Rng(seed).fork("sim/sensor"));
-    TrajectoryPoint hover;
-    hover.pose = start;
-    reference = {hover};
-    rotors.spinUp(params.mass_kg * kGravity);
+  }
+
+  std::unique_ptr<Vehicle> makeVehicle(const RobotModel& robot, const WorldMesh& mesh,
+                                       const Pose& start) {
+    if (kindOf(robot) == RobotKind::kAerial)
+      return std::make_unique<Multirotor>(params, mesh, scene, start);
+    auto made = std::make_unique<Walker>(params.walker, robot, mesh, scene, start);
+    walker = made.get();
+    return made;
+  }
+
+  [[nodiscard]] DriveLimits limitsFor(const RobotModel& robot) const {
+    if (walker != nullptr) return walkingLimits(robot, params.walker);
+    const double speed = robot.speed_max_mps;
+    return {speed, speed, speed, robot.yaw_rate_max_radps};
   }
 
   [[nodiscard]] double timeAfter(std::int64_t step_count) const {
@@ -131,63 +141,66 @@ struct Simulator::Impl {
   void stepOnce() {
     const double step_s = 1.0 / params.physics_rate_hz;
     const double time_s = timeAfter(steps);
-    const BodyState truth = body.state();
-    const TrajectoryPoint ahead = stateAt(reference, time_s + kAccelerationPreview);
-    rotors.command(battery.isEmpty()
-                       ? Wrench{}
-                       : computeWrench(airframe, odometry.estimate(), stateAt(reference, time_s),
-                                       ahead.acceleration));
-    rotors.advance(step_s);
-    body.step(step_s, rotors.wrench(), -params.drag_coefficient * truth.velocity);
+    const double speed_mps = vehicle->state().velocity.norm();
+    const BodyState estimate = odometry.estimate();
+    reference.update(time_s, estimate);
+    vehicle->step(step_s, time_s, estimate, reference,
+                  battery.isEmpty() ? Power::kOff : Power::kOn);
     ++steps;
-    odometry.advance(body.state());
-    battery.draw(step_s, truth.velocity.norm());
-    contacts.add(timeAfter(steps), step_s, body.isInContact());
+    odometry.advance(vehicle->state());
+    battery.draw(step_s, speed_mps);
+    contacts.add(timeAfter(steps), step_s, vehicle->isInContact());
   }
 
   void takeDueScans(std::vector<SimulatedScan>& scans) {
     const double time_s = timeAfter(steps);
     for (RangeSensor& sensor : sensors) {
       if (sensor.nextScanTime() > time_s + kTimeTolerance) continue;
-      scans.push_back(
-          sensor.scan(scene, toIsometry(body.state()), toIsometry(odometry.measurement()), time_s));
+      scans.push_back(sensor.scan(scene, toIsometry(vehicle->state()),
+                                  toIsometry(odometry.measurement()), time_s));
     }
   }
 
   SimParams params;
-  double braking_mps2;
   MeshScene scene;
-  Airframe airframe;
-  Rotors rotors;
-  RigidBody body;
+  Walker* walker = nullptr;  ///< The vehicle, if it walks.
+  std::unique_ptr<Vehicle> vehicle;
+  DriveLimits limits;
   Battery battery;
   Odometry odometry;
   ContactLog contacts;
   std::vector<RangeSensor> sensors;
-  Trajectory reference;
+  MotionReference reference;
+  int reduced_drives = 0;
   std::int64_t steps = 0;
 };
 
 Simulator::Simulator(const SimParams& params, const RobotModel& robot, const WorldMesh& mesh,
                      const Pose& start, std::uint64_t seed) {
   requireUsable(params, mesh);
+  requireInside(mesh, start);
   impl_ = std::make_unique<Impl>(params, robot, mesh, start, seed);
 }
 Simulator::~Simulator() = default;
 
 void Simulator::follow(Trajectory trajectory) {
   requireFollowable(trajectory);
-  if (!trajectory.empty()) {
-    impl_->reference = std::move(trajectory);
-    return;
-  }
-  const RobotState now = toRobotState(time(), impl_->odometry.estimate());
-  TrajectoryPoint from;
-  from.pose = now.pose;
-  from.velocity = now.velocity;
-  from.yaw_rate = now.yaw_rate;
-  impl_->reference = brakingTrajectory(time(), from, impl_->braking_mps2);
+  impl_->reference.follow(std::move(trajectory), time(), impl_->odometry.estimate());
 }
+
+DriveAnswer Simulator::drive(const DriveCommand& command) {
+  require(std::isfinite(command.forward_mps) && std::isfinite(command.sideways_mps) &&
+              std::isfinite(command.yaw_rate_radps),
+          "Simulator::drive: command is not finite");
+  DriveAnswer answer;
+  answer.executed = clamped(command, impl_->limits);
+  answer.warning = reductionText(command, answer.executed);
+  if (!answer.warning.empty()) ++impl_->reduced_drives;
+  impl_->reference.drive(answer.executed, time());
+  return answer;
+}
+
+int Simulator::reducedDrives() const { return impl_->reduced_drives; }
 
 std::vector<SimulatedScan> Simulator::advanceTo(double time_s) {
   require(std::isfinite(time_s), "Simulator::advanceTo: time is not finite");
@@ -201,12 +214,23 @@ std::vector<SimulatedScan> Simulator::advanceTo(double time_s) {
 }
 
 double Simulator::time() const { return impl_->timeAfter(impl_->steps); }
-RobotState Simulator::trueState() const { return toRobotState(time(), impl_->body.state()); }
+RobotState Simulator::trueState() const { return toRobotState(time(), impl_->vehicle->state()); }
 RobotState Simulator::odometry() const {
   return toRobotState(time(), impl_->odometry.measurement());
 }
 BatteryState Simulator::battery() const { return impl_->battery.state(); }
 CollisionCount Simulator::collisions() const { return impl_->contacts.count(); }
 const MeshScene& Simulator::scene() const { return impl_->scene; }
+Eigen::Vector3d Simulator::bodySize() const { return impl_->vehicle->bodySize(); }
+
+WalkerCount Simulator::walkerCount() const {
+  return impl_->walker ? impl_->walker->count() : WalkerCount{};
+}
+JointState Simulator::joints() const {
+  return impl_->walker ? impl_->walker->joints() : JointState{};
+}
+std::vector<FootState> Simulator::feet() const {
+  return impl_->walker ? impl_->walker->feet() : std::vector<FootState>{};
+}
 
 }  // namespace spelunk::sim

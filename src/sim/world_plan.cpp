@@ -9,6 +9,8 @@
 namespace spelunk::sim {
 namespace {
 
+constexpr const char* kKinds = "drifts, rooms, cave, ramps, rough, room or maze";
+
 struct CommonParams {
   std::string kind;
   int seed = 1;
@@ -19,7 +21,7 @@ struct CommonParams {
 
   template <class Visitor>
   void visit(Visitor&& field) {
-    field("kind", kind, Bounds{}, "drifts, rooms, cave, room or maze");
+    field("kind", kind, Bounds{}, kKinds);
     field("seed", seed, Bounds{0, 2e9}, "another seed, another world of the same kind");
     field("cell_m", cell_m, Bounds{0.1, 2.0}, "grid of the surface");
     field("roughness_m", roughness_m, Bounds{0.0, 2.0}, "depth of the roughness of walls");
@@ -57,7 +59,7 @@ std::string knownNames(const Params& kind_params) {
   return names;
 }
 
-/// Adds a problem for each "..._min_m" that exceeds its "..._max_m".
+/// Adds a problem for each "..._min_<unit>" that exceeds its "..._max_<unit>".
 template <class Params>
 void addOrderProblems(Params params, ParamTree& tree) {
   std::map<std::string, double> values;
@@ -65,9 +67,9 @@ void addOrderProblems(Params params, ParamTree& tree) {
     values[name] = static_cast<double>(value);
   });
   for (const auto& [low, value] : values) {
-    const std::size_t at = low.find("_min_m");
+    const std::size_t at = low.find("_min_");
     if (at == std::string::npos) continue;
-    const std::string high = low.substr(0, at) + "_max_m";
+    const std::string high = low.substr(0, at) + "_max_" + low.substr(at + 5);
     if (value > values.at(high)) tree.addProblem(low + " must not exceed " + high);
   }
 }
@@ -111,13 +113,17 @@ WorldPlan planWorld(const std::string& description_path) {
     finish<RoomsParams>(tree, description_path, plan);
   } else if (common.kind == "cave") {
     finish<CaveParams>(tree, description_path, plan);
+  } else if (common.kind == "ramps") {
+    finish<RampsParams>(tree, description_path, plan);
+  } else if (common.kind == "rough") {
+    finish<RoughParams>(tree, description_path, plan);
   } else if (common.kind == "room") {
     finish<RoomParams>(tree, description_path, plan);
   } else if (common.kind == "maze") {
     finish<MazeParams>(tree, description_path, plan);
   } else {
     throw OutsideError("world description '" + description_path + "': kind = '" + common.kind +
-                       "' is not known; write kind: drifts, rooms, cave, room or maze");
+                       "' is not known; write kind: " + kKinds);
   }
   return plan;
 }

@@ -8,7 +8,7 @@ namespace {
 TEST(Battery, FullOneLastsTheRobotsEndurance) {
   RobotModel robot;
   robot.endurance_s = 600.0;
-  const Battery battery(SimParams{}, robot);
+  const Battery battery(flightPower({}), 0.0, robot);
   EXPECT_NEAR(battery.state().remaining_s, 600.0, 1e-9);
   EXPECT_EQ(battery.state().fraction, 1.0);
 }
@@ -16,7 +16,7 @@ TEST(Battery, FullOneLastsTheRobotsEndurance) {
 TEST(Battery, TypicalFlightLastsTheRobotsEndurance) {
   RobotModel robot;
   robot.endurance_s = 600.0;
-  Battery battery(SimParams{}, robot);
+  Battery battery(flightPower({}), 0.0, robot);
   const double typical_speed = 0.7 * robot.speed_max_mps;
   for (int k = 0; k < 5990; ++k) battery.draw(0.1, typical_speed);
   EXPECT_FALSE(battery.isEmpty());
@@ -28,18 +28,28 @@ TEST(Battery, TypicalFlightLastsTheRobotsEndurance) {
 }
 
 TEST(Battery, MotionCostsTheSquareOfSpeed) {
-  SimParams params;
-  params.battery_wh = 100.0;
-  Battery battery(params, RobotModel{});
+  Battery battery(flightPower({}), 100.0, RobotModel{});
   EXPECT_NEAR(battery.state().energy_wh, 100.0, 1e-9);
   battery.draw(36.0, 2.0);
   EXPECT_NEAR(battery.state().power_w, 350.0 + 12.0 * 4.0, 1e-9);
   EXPECT_NEAR(battery.state().energy_wh, 100.0 - 3.98, 1e-9);
 }
 
+TEST(Battery, WalkingLastsTheRobotsEndurance) {
+  RobotModel robot;
+  robot.endurance_s = 3600.0;
+  robot.speed_max_mps = 0.5;
+  const WalkerParams params;
+  Battery battery(walkingPower(params), 0.0, robot);
+  for (int k = 0; k < 35990; ++k) battery.draw(0.1, 0.5);
+  EXPECT_NEAR(battery.state().remaining_s, 1.0, 1e-4);
+  EXPECT_NEAR(battery.state().power_w,
+              params.standing_power_w + 0.5 * params.walking_power_w_per_mps, 1e-9);
+}
+
 TEST(Battery, FastFlightShortensWhatRemains) {
-  Battery slow(SimParams{}, RobotModel{});
-  Battery fast(SimParams{}, RobotModel{});
+  Battery slow(flightPower({}), 0.0, RobotModel{});
+  Battery fast(flightPower({}), 0.0, RobotModel{});
   for (int k = 0; k < 600; ++k) {
     slow.draw(0.1, 0.0);
     fast.draw(0.1, 4.0);

@@ -103,6 +103,30 @@ TEST(MeshScene, RangesAgreeWithBruteForce) {
   EXPECT_LT(missed, 2000);
 }
 
+TEST(MeshScene, SingleRaysAgreeWithBruteForce) {
+  const WorldMesh mesh = triangleCloud(300, 15);
+  const MeshScene scene(mesh);
+  Rng rng(16);
+  int hits = 0;
+  int differing = 0;
+  for (int k = 0; k < 1500; ++k) {
+    const Vector3d origin = randomPoint(rng, Vector3d::Constant(-4), Vector3d::Constant(4));
+    const Vector3d direction =
+        randomPoint(rng, Vector3d::Constant(-1), Vector3d::Constant(1)).normalized();
+    const double wanted = bruteForceRange(mesh, origin, direction);
+    const auto hit = scene.castRay(origin, direction, 6.0);
+    if (hit.has_value() != (wanted < 6.0) || (hit && std::abs(hit->range_m - wanted) > 1e-4))
+      ++differing;
+    if (!hit) continue;
+    ++hits;
+    EXPECT_NEAR(hit->normal.norm(), 1.0, 1e-9);
+    EXPECT_LE(hit->normal.dot(direction), 0.0) << "the normal looks away from the ray";
+  }
+  EXPECT_LE(differing, 1);  // a ray through an edge may see it or not
+  EXPECT_GT(hits, 300);
+  EXPECT_LT(hits, 1400);
+}
+
 TEST(MeshScene, RangesDoNotDependOnNeighboursInAPacket) {
   const MeshScene scene(triangleCloud(500, 7));
   const std::vector<Vector3f> directions = rayDirections(SensorModel{});

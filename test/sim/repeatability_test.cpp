@@ -11,6 +11,8 @@
 #include "spelunk/common/pin_math.h"
 #include "spelunk/sim/simulator.h"
 #include "support/meshes.h"
+#include "support/terrain.h"
+#include "support/walking.h"
 
 namespace spelunk {
 namespace {
@@ -55,6 +57,24 @@ void addFlight(Hash& hash) {
   for (int k = 0; k < 4; ++k) hash.add(sim.trueState().orientation.coeffs()[k]);
 }
 
+/// A walk over rough ground, with what its camera sees.
+void addWalk(Hash& hash) {
+  RobotModel robot = test::walkerModel();
+  SensorModel camera;
+  camera.kind = "depth_camera";
+  camera.fov_horizontal_deg = 80.0;
+  camera.fov_vertical_deg = 50.0;
+  camera.mount_pitch_deg = 30.0;
+  camera.columns = 60;
+  robot.sensor_models = {camera};
+  sim::Simulator sim({}, robot, test::roughGround(14.0F, 8.0F, 0.4F, 2), {{0, 0, 1}, 0.3}, 7);
+  sim.follow(test::walkAlong({{0, 0}, {3, 1}}, 0.5, 0.2));
+  for (const sim::SimulatedScan& scan : sim.advanceTo(5.0))
+    for (const Eigen::Vector3f& point : scan.scan.points)
+      for (int k = 0; k < 3; ++k) hash.add(point[k]);
+  for (const double angle : sim.joints().angles) hash.add(angle);
+}
+
 /// What this program prints when started with `--hash` in the environment `setting`.
 std::string hashUnder(const std::string& setting) {
   const std::string self = testing::internal::GetArgvs()[0];
@@ -86,6 +106,7 @@ int main(int argc, char** argv) {
     spelunk::Hash hash;
     spelunk::addMathematics(hash);
     spelunk::addFlight(hash);
+    spelunk::addWalk(hash);
     std::printf("%016llx\n", static_cast<unsigned long long>(hash.value()));
     return 0;
   }

@@ -13,7 +13,7 @@ constexpr double kStep = 0.0025;
 const RigidBody::Shape kShape{2.0, {0.03, 0.03, 0.05}, {0.6, 0.6, 0.2}};
 
 RigidBody bodyAt(const Vector3d& position) {
-  return {test::boxRoom({20, 20, 10}), kShape, {position, 0.0}};
+  return {test::boxRoom({20, 20, 10}), kShape, position, Eigen::Quaterniond::Identity()};
 }
 
 TEST(RigidBody, FallsWithGravity) {
@@ -50,6 +50,33 @@ TEST(RigidBody, WallStopsIt) {
     EXPECT_LT(body.state().position.x(), 9.8);
   }
   EXPECT_TRUE(has_touched);
+}
+
+TEST(RigidBody, TheFloorCarriesItsWeight) {
+  RigidBody body = bodyAt({0.3, -0.2, 0.3});
+  body.step(kStep, {}, Vector3d::Zero());
+  EXPECT_EQ(body.contactForce().norm(), 0.0) << "it falls freely";
+  for (int k = 0; k < 1200; ++k) body.step(kStep, {}, Vector3d::Zero());
+  Vector3d mean = Vector3d::Zero();
+  for (int k = 0; k < 400; ++k) {
+    body.step(kStep, {}, Vector3d::Zero());
+    mean += body.contactForce() / 400.0;
+  }
+  EXPECT_NEAR(mean.z(), kShape.mass_kg * kGravity, 0.5);
+  EXPECT_LT(mean.head<2>().norm(), 0.5);
+}
+
+TEST(RigidBody, FrictionHoldsWhatSlidesWithoutIt) {
+  const auto slideOf = [](double friction) {
+    RigidBody::Shape shape = kShape;
+    shape.friction = friction;
+    RigidBody body(test::boxRoom({20, 20, 10}), shape, {0, 0, 0.12},
+                   Eigen::Quaterniond::Identity());
+    for (int k = 0; k < 400; ++k) body.step(kStep, {}, {4.0, 0.0, 0.0});
+    return body.state().position.x();
+  };
+  EXPECT_LT(slideOf(0.7), 0.05);
+  EXPECT_GT(slideOf(0.1), 0.5);
 }
 
 TEST(RigidBody, OuterForceAccelerates) {

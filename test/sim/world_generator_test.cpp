@@ -12,6 +12,7 @@
 #include "spelunk/sim/rock_field.h"
 #include "support/mesh_checks.h"
 #include "support/temporary_folder.h"
+#include "support/walking.h"
 
 namespace spelunk::sim {
 namespace {
@@ -135,6 +136,8 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(Expectation{"long_wall", 1458682609187250659ULL, 12000, 24000},
                     Expectation{"room_and_pillar", 5248636625113724989ULL, 50000, 90000},
                     Expectation{"cave", 5647964739153747146ULL, 12000, 26000},
+                    Expectation{"ramps", 18405832082591299727ULL, 4000, 9000},
+                    Expectation{"rough", 124908318093271421ULL, 1800, 3500},
                     Expectation{"room", 18286154345773577104ULL, 450, 600},
                     Expectation{"tiny_maze", 3206369154968430270ULL, 800, 1200}),
     [](const auto& instance) { return std::string(instance.param.name); });
@@ -167,7 +170,8 @@ TEST_P(ShippedMine, IsNowhereNarrowerThanPlanned) {
   EXPECT_EQ(narrower, 0) << "of " << measured;
 }
 
-INSTANTIATE_TEST_SUITE_P(All, ShippedMine, testing::Values("long_wall", "room_and_pillar", "cave"),
+INSTANTIATE_TEST_SUITE_P(All, ShippedMine,
+                         testing::Values("long_wall", "room_and_pillar", "cave", "ramps", "rough"),
                          [](const auto& instance) { return std::string(instance.param); });
 
 /// Whether the way to a hit leads through solid rock.
@@ -216,6 +220,129 @@ TEST(RoomAndPillar, HasOneNarrowestOpening) {
   EXPECT_GT(size.x(), 200.0);
 }
 
+/// Height of the ground below a point; far below if there is none within 20 m.
+double groundAt(const World& at, const Eigen::Vector3d& from) {
+  const auto hit = at.scene.castRay(from, -Eigen::Vector3d::UnitZ(), 20.0);
+  return hit ? from.z() - hit->range_m : -1e9;
+}
+
+/// The passages that lead from one level to another.
+std::vector<Passage> rampsOf(const WorldPlan& plan) {
+  std::vector<Passage> ramps;
+  for (const Passage& passage : plan.passages)
+    if (passage.stations.front().floor.z() != passage.stations.back().floor.z())
+      ramps.push_back(passage);
+  return ramps;
+}
+
+TEST(Ramps, JoinThreeLevelsAtTenToTwentyDegrees) {
+  const World& at = world("ramps");
+  const std::vector<Passage> ramps = rampsOf(at.plan);
+  ASSERT_EQ(ramps.size(), 4U);
+  double lowest = 0.0;
+  for (const Passage& ramp : ramps) {
+    const Eigen::Vector3d down = ramp.stations[4].floor - ramp.stations[2].floor;
+    const double degrees = std::atan2(-down.z(), down.head<2>().norm()) * 180.0 / M_PI;
+    EXPECT_GE(degrees, 10.0);
+    EXPECT_LE(degrees, 20.0);
+    for (int k = 0; k <= 20; ++k) {
+      const Eigen::Vector3d floor = ramp.stations[2].floor + 0.05 * k * down;
+      EXPECT_NEAR(groundAt(at, floor + Eigen::Vector3d(0, 0, 1)), floor.z(), 0.15);
+    }
+    lowest = std::min(lowest, ramp.stations.back().floor.z());
+  }
+  EXPECT_EQ(lowest, -12.0);
+}
+
+TEST(Ramps, AShaftLeadsStraightDownToTheNextLevel) {
+  const World& at = world("ramps");
+  ASSERT_EQ(at.plan.halls.size(), 1U);
+  const Eigen::Vector3d middle(at.plan.halls[0].floor.x(), at.plan.halls[0].floor.y(), 0.0);
+  EXPECT_NEAR(groundAt(at, middle + Eigen::Vector3d(0, 0, 1)), -6.0, 0.15);
+  for (double z = 1.0; z > -5.0; z -= 0.25) EXPECT_TRUE(at.fits({middle.x(), middle.y(), z})) << z;
+  const Eigen::Vector3d before = middle - Eigen::Vector3d(3.2, 0, -1);
+  EXPECT_NEAR(groundAt(at, before), 0.0, 0.15) << "the heading ends before the shaft";
+}
+
+TEST(Ramps, AreWalkable) {
+  const World& at = world("ramps");
+  const Passage ramp = rampsOf(at.plan).front();
+  std::vector<Eigen::Vector2d> corners{at.plan.start.position.head<2>()};
+  for (const std::size_t k : {0U, 1U, 5U}) corners.emplace_back(ramp.stations[k].floor.head<2>());
+  Simulator sim({}, test::walkerModel(), at.mesh, at.plan.start, 1);
+  const test::Walked walked = test::walk(sim, corners, 0.5);
+  EXPECT_EQ(walked.count.falls, 0);
+  EXPECT_EQ(walked.trunk_contacts, 0);
+  EXPECT_LT((walked.end.head<2>() - corners.back()).norm(), 0.2);
+  EXPECT_NEAR(walked.end.z(), -6.0 + 0.5, 0.2);
+}
+
+TEST(Rough, ItsStepsAndHolesAreThere) {
+  const World& at = world("rough");
+  double highest = 0.0;
+  double lowest = 1.0;
+  for (const Block& block : at.plan.blocks) {
+    const double top = block.centre.z() + 0.5 * block.size.z();
+    highest = std::max(highest, top);
+    lowest = std::min(lowest, top);
+    if (block.size.x() < 1.0 || block.size.y() < 1.0) continue;  // rubble lies on top of rubble
+    const double beside = block.size.y() > at.plan.passages[0].stations[0].width ? 0.0 : 0.3;
+    const Eigen::Vector3d middle(block.centre.x(), block.centre.y() + beside, 1.2);
+    EXPECT_NEAR(groundAt(at, middle), top, 0.1) << middle.transpose();
+  }
+  EXPECT_EQ(highest, 0.4);
+  EXPECT_LT(lowest, 0.12);
+  ASSERT_GE(at.plan.pits.size(), 4U);
+  for (const Pit& pit : at.plan.pits) {
+    EXPECT_GE(pit.size.x(), 0.3);
+    EXPECT_LE(pit.size.x(), 1.0);
+    EXPECT_NEAR(groundAt(at, pit.top + Eigen::Vector3d(0, 0, 1)), -0.8, 0.15);
+  }
+}
+
+TEST(Rough, LeavesAWayRoundEveryHoleAndHighStep) {
+  const World& at = world("rough");
+  for (const double y : {0.0, 18.0}) {
+    for (double x = 1.0; x < 59.0; x += 0.2) {
+      double widest = 0.0;
+      double width = 0.0;
+      for (double off = -1.9; off <= 1.9; off += 0.1) {
+        const double ground = groundAt(at, {x, y + off, 1.2});
+        width = ground > -0.2 && ground < 0.23 ? width + 0.1 : 0.0;
+        widest = std::max(widest, width);
+      }
+      EXPECT_GE(widest, 1.2) << "at x = " << x << ", y = " << y;
+    }
+  }
+}
+
+TEST(Rough, LegsCanCrossRailsAndRubble) {
+  const World& at = world("rough");
+  Simulator sim({}, test::walkerModel(), at.mesh, at.plan.start, 1);
+  const test::Walked walked = test::walk(sim, {{2.5, 0.0}, {20.0, 0.0}}, 0.5);
+  EXPECT_EQ(walked.count.falls, 0);
+  EXPECT_NEAR(walked.end.x(), 20.0, 0.2);
+}
+
+TEST(Rough, AHoleOnTheWayIsAFall) {
+  const World& at = world("rough");
+  const Pit& pit = at.plan.pits.front();
+  const double y = pit.top.y();
+  Simulator sim({}, test::walkerModel(), at.mesh, {{pit.top.x() - 2.5, y, 1.0}, 0.0}, 1);
+  const test::Walked walked =
+      test::walk(sim, {{pit.top.x() - 2.5, y}, {pit.top.x() + 2.5, y}}, 0.5);
+  EXPECT_EQ(walked.count.falls, 1);
+}
+
+TEST(LongWall, IsWalkable) {
+  const World& at = world("long_wall");
+  Simulator sim({}, test::walkerModel(), at.mesh, at.plan.start, 1);
+  const test::Walked walked = test::walk(sim, {{2.5, 0.0}, {60.0, 0.0}}, 0.5);
+  EXPECT_EQ(walked.count.falls, 0);
+  EXPECT_EQ(walked.count.slips, 0);
+  EXPECT_NEAR(walked.end.x(), 60.0, 0.2);
+}
+
 TEST(GenerateWorld, GivesTheSameBytesTwice) {
   const WorldMesh again = generateWorld(shipped("tiny_maze"));
   EXPECT_EQ(test::hashOf(again), test::hashOf(world("tiny_maze").mesh));
@@ -255,7 +382,7 @@ TEST(GenerateWorld, NamesEveryProblemOfADescriptionAndTheKnownNames) {
 TEST(GenerateWorld, RefusesAnUnknownKindAndListsTheKinds) {
   const std::string complaint = complaintOn("kind: volcano\n");
   EXPECT_NE(complaint.find("volcano"), std::string::npos);
-  EXPECT_NE(complaint.find("drifts, rooms, cave, room or maze"), std::string::npos);
+  EXPECT_NE(complaint.find("drifts, rooms, cave, ramps, rough, room or maze"), std::string::npos);
 }
 
 TEST(GenerateWorld, RefusesAMinimumAboveItsMaximum) {

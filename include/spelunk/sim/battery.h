@@ -5,26 +5,41 @@
 
 namespace spelunk::sim {
 
-/// Energy and power of a flying robot: hovering costs a constant power, motion adds speed squared.
+/// What a robot draws: at rest, and more with its speed.
+struct PowerModel {
+  double rest_w = 350.0;
+  double per_mps_w = 0.0;            ///< Times speed.
+  double per_mps2_w = 12.0;          ///< Times speed squared.
+  double typical_speed_share = 0.7;  ///< Of the cruising speed: what the endurance is meant for.
+};
+
+/// The power of a flying robot: typical flight is at 0.7 of the cruising speed (r.m.s., stops
+/// included).
+[[nodiscard]] PowerModel flightPower(const SimParams& params);
+
+/// The power of a walking robot: its endurance is meant at walking speed.
+[[nodiscard]] PowerModel walkingPower(const WalkerParams& params);
+
+/// Energy of a robot.
 class Battery {
  public:
-  /// Without a capacity in `params`, one that lasts robot.endurance_s in typical flight, which is
-  /// at 0.7 of the cruising speed on average.
-  Battery(const SimParams& params, const RobotModel& robot);
+  /// With `capacity_wh` 0, a capacity that lasts robot.endurance_s at the typical speed.
+  Battery(const PowerModel& power, double capacity_wh, const RobotModel& robot);
 
-  /// Draws for `step_s` of flight at `speed_mps`.
+  /// Draws for `step_s` of motion at `speed_mps`.
   void draw(double step_s, double speed_mps);
 
   [[nodiscard]] BatteryState state() const;
   [[nodiscard]] bool isEmpty() const { return energy_j_ <= 0.0; }
 
  private:
-  double hover_power_w_;
-  double motion_power_w_per_mps2_;
+  [[nodiscard]] double powerAt(double speed_mps) const;
+
+  PowerModel model_;
+  double power_w_;
+  double mean_power_w_;
   double capacity_j_;
   double energy_j_;
-  double power_w_;
-  double mean_power_w_;  ///< Of the last half minute or so, typical flight before that.
 };
 
 }  // namespace spelunk::sim

@@ -16,10 +16,12 @@ class RigidBody {
     double mass_kg = 1.0;
     Eigen::Vector3d inertia_kgm2 = Eigen::Vector3d::Ones();  ///< Principal, along the box's axes.
     Eigen::Vector3d size_m = Eigen::Vector3d::Ones();        ///< Full extents.
+    double friction = 0.3;  ///< Of body and mesh alike; 0.3 slides along a wall, not catching.
   };
 
   /// The body starts at rest.
-  RigidBody(const WorldMesh& mesh, const Shape& shape, const Pose& start);
+  RigidBody(const WorldMesh& mesh, const Shape& shape, const Eigen::Vector3d& position,
+            const Eigen::Quaterniond& orientation);
   ~RigidBody();
   RigidBody(RigidBody&&) noexcept;
 
@@ -31,6 +33,10 @@ class RigidBody {
 
   /// Whether the body touched the mesh in the last step.
   [[nodiscard]] bool isInContact() const;
+
+  /// What the mesh pushed the body with in the last step: the sum of the normal forces, world
+  /// frame, newtons.
+  [[nodiscard]] Eigen::Vector3d contactForce() const;
 
  private:
   struct Impl;

@@ -17,6 +17,8 @@ class RockField {
   /// The spaces whose surface may lie in a region; others need not be asked there.
   struct Selection {
     std::vector<std::size_t> spaces;
+    std::vector<std::size_t> blocks;
+    std::vector<std::size_t> pits;
     [[nodiscard]] bool isEmpty() const { return spaces.empty(); }
   };
   [[nodiscard]] Selection select(const AxisAlignedBox& region) const;
@@ -38,6 +40,7 @@ class RockField {
     Station b;
     Eigen::Vector2d half = Eigen::Vector2d::Zero();  ///< Chamber's radii, hall's half size.
     AxisAlignedBox reach;                            ///< Around everything it may make free.
+    double root_m = 0.8;                             ///< See Passage; the others have this.
   };
   /// Distance to walls and roof, and the height of the floor.
   struct Sample {
@@ -50,10 +53,15 @@ class RockField {
   [[nodiscard]] static Sample sampleChamber(const Space& space, const Eigen::Vector3d& point);
   [[nodiscard]] static Sample sampleHall(const Space& space, const Eigen::Vector3d& point);
   [[nodiscard]] Sample blended(const Eigen::Vector3d& point, const Selection& selection) const;
+  [[nodiscard]] double withFloorFeatures(double value, const Eigen::Vector3d& point,
+                                         const Selection& selection) const;
   [[nodiscard]] double roughness(const Eigen::Vector3d& point, double above_floor) const;
 
   std::vector<Space> spaces_;
   std::vector<Pillar> pillars_;
+  std::vector<Block> blocks_;
+  std::vector<Pit> pits_;
+  double deepest_pit_m_ = 0.0;
   double roughness_m_;
   double blend_m_;
   double grain_m_;

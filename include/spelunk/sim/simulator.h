@@ -11,6 +11,8 @@
 #include "spelunk/common/scan.h"
 #include "spelunk/common/trajectory.h"
 #include "spelunk/sim/mesh_scene.h"
+#include "spelunk/sim/motion_reference.h"
+#include "spelunk/sim/walker_params.h"
 #include "spelunk/sim/world_mesh.h"
 
 namespace spelunk::sim {
@@ -32,8 +34,9 @@ struct SimParams {
   double dust_returns = 0.0;              ///< Mean share of rays that end early in dust.
   double odometry_drift = 0.0;            ///< Metres of drift a metre flown (1 sigma).
   double odometry_noise_m = 0.0;          ///< White noise of the position (1 sigma).
+  WalkerParams walker;                    ///< Body of a legged robot (section "walker").
 
-  /// Broken rules between fields, one text each; empty if all is well.
+  /// Broken rules between fields, one text each; empty if all is well. The walker's are apart.
   [[nodiscard]] std::vector<std::string> problems() const;
 
   template <class Visitor>
@@ -57,6 +60,9 @@ struct SimParams {
   }
 };
 
+/// Reads the sections "sim" and "walker"; problems are added to the tree.
+[[nodiscard]] SimParams readSimParams(ParamTree& tree);
+
 struct BatteryState {
   double energy_wh = 0.0;
   double fraction = 1.0;  ///< 0 .. 1
@@ -67,6 +73,31 @@ struct BatteryState {
 struct CollisionCount {
   int episodes = 0;      ///< Contacts with the mesh, each counted once until parted for 0.5 s.
   double seconds = 0.0;  ///< Time in contact.
+};
+
+/// What went wrong with a walking robot; its trunk's contacts are CollisionCount's.
+struct WalkerCount {
+  int falls = 0;  ///< 0 or 1: who has fallen lies there.
+  int slips = 0;  ///< Feet that slid by 3 cm or more, once a step.
+};
+
+/// A foot of a walking robot.
+struct FootState {
+  std::string name;                                    ///< LF, RF, LH, RH
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< Base frame.
+  bool is_in_contact = false;                          ///< It stands on the ground.
+};
+
+/// Joint angles in the order of the names, radians.
+struct JointState {
+  std::vector<std::string> names;
+  std::vector<double> angles;
+};
+
+/// What became of a drive command.
+struct DriveAnswer {
+  DriveCommand executed;  ///< Within the robot's limits.
+  std::string warning;    ///< What was reduced to which limit; empty if nothing was.
 };
 
 /// One scan with every simulated ray, for the mapping robot and for the referee.
@@ -83,7 +114,9 @@ struct SimulatedScan {
 class Simulator {
  public:
   /// Throws OutsideError if the start lies in collision or outside the mesh's bounds, the mesh is
-  /// empty or `params` have problems. The robot starts hovering at `start`, at time 0.
+  /// empty or `params` have problems. An aerial robot starts hovering at `start`, at time 0; a
+  /// legged one standing on the ground below it, which must be within 1.5 m, whole under its feet
+  /// and not too steep.
   Simulator(const SimParams& params, const RobotModel& robot, const WorldMesh& mesh,
             const Pose& start, std::uint64_t seed);
   ~Simulator();
@@ -92,10 +125,18 @@ class Simulator {
   /// one brakes with robot.braking_deceleration_mps2 and holds. It steers by its odometry, whose
   /// frame the trajectory is in, so drift moves the robot. Throws Precondition if a point is not
   /// finite or times do not rise.
+  /// A legged robot stays on the ground whatever the trajectory's height, and lets the
+  /// trajectory wait for it where it cannot keep up.
   void follow(Trajectory trajectory);
 
+  /// The robot moves at `command` (base frame) for kDriveTimeout unless told anew, then brakes and
+  /// holds. What exceeds the robot's limits is reduced to them, said and counted. Throws
+  /// Precondition if the command is not finite.
+  DriveAnswer drive(const DriveCommand& command);
+  [[nodiscard]] int reducedDrives() const;  ///< Drive commands above the limits so far.
+
   /// Advances by fixed steps up to `time_s`; returns the scans that fell due, in order of time, the
-  /// first one at time 0. With an empty battery the rotors stop.
+  /// first one at time 0. With an empty battery the rotors stop, the legs go limp.
   std::vector<SimulatedScan> advanceTo(double time_s);
 
   [[nodiscard]] double time() const;
@@ -104,6 +145,11 @@ class Simulator {
   [[nodiscard]] BatteryState battery() const;
   [[nodiscard]] CollisionCount collisions() const;
   [[nodiscard]] const MeshScene& scene() const;
+  [[nodiscard]] Eigen::Vector3d bodySize() const;  ///< Full extents of the body that collides.
+
+  [[nodiscard]] WalkerCount walkerCount() const;      ///< Zeros for an aerial robot.
+  [[nodiscard]] JointState joints() const;            ///< Empty for an aerial robot.
+  [[nodiscard]] std::vector<FootState> feet() const;  ///< Empty for an aerial robot.
 
  private:
   struct Impl;

@@ -118,6 +118,69 @@ struct CaveParams {
   }
 };
 
+/// Kind "ramps": three levels of two headings with crosscuts, one above the other, joined by ramps;
+/// and one shaft from the uppermost level to the middle one.
+struct RampsParams {
+  double level_length_m = 50.0;
+  double heading_spacing_m = 20.0;
+  double crosscut_pitch_m = 22.0;
+  double level_drop_m = 6.0;
+  double grade_min_percent = 18.0;
+  double grade_max_percent = 36.0;
+  double width_min_m = 2.8;
+  double width_max_m = 4.0;
+  double height_m = 3.0;
+  double shaft_m = 3.0;
+
+  template <class Visitor>
+  void visit(Visitor&& field) {
+    field("level_length_m", level_length_m, Bounds{30.0, 300.0}, "length of the headings");
+    field("heading_spacing_m", heading_spacing_m, Bounds{10.0, 100.0}, "between the headings");
+    field("crosscut_pitch_m", crosscut_pitch_m, Bounds{10.0, 200.0}, "from crosscut to crosscut");
+    field("level_drop_m", level_drop_m, Bounds{4.0, 10.0}, "from level to level");
+    field("grade_min_percent", grade_min_percent, Bounds{10.0, 60.0}, "gentlest ramp");
+    field("grade_max_percent", grade_max_percent, Bounds{10.0, 60.0}, "steepest ramp");
+    field("width_min_m", width_min_m, Bounds{1.8, 8.0}, "narrowest heading");
+    field("width_max_m", width_max_m, Bounds{1.8, 8.0}, "widest heading");
+    field("height_m", height_m, Bounds{1.8, 3.5}, "floor to roof");
+    field("shaft_m", shaft_m, Bounds{2.0, 6.0}, "edge of the shaft");
+  }
+};
+
+/// Kind "rough": two drifts and three crosscuts with rubble, rails, steps and holes on the floor.
+/// Steps that are too high for legs, and all holes, leave a way round on one side; the middle
+/// crosscut is closed to legs by the highest step.
+struct RoughParams {
+  double length_m = 60.0;
+  double spacing_m = 18.0;
+  double width_m = 4.6;
+  double height_m = 3.2;
+  double obstacle_pitch_m = 4.5;
+  double rubble_max_m = 0.2;
+  double step_min_m = 0.05;
+  double step_max_m = 0.4;
+  double easy_step_m = 0.15;
+  double hole_min_m = 0.3;
+  double hole_max_m = 1.0;
+  double hole_depth_m = 0.8;
+
+  template <class Visitor>
+  void visit(Visitor&& field) {
+    field("length_m", length_m, Bounds{30.0, 500.0}, "length of both drifts");
+    field("spacing_m", spacing_m, Bounds{10.0, 100.0}, "between the drifts");
+    field("width_m", width_m, Bounds{4.0, 12.0}, "width of the drifts");
+    field("height_m", height_m, Bounds{1.8, 10.0}, "floor to roof");
+    field("obstacle_pitch_m", obstacle_pitch_m, Bounds{4.0, 50.0}, "from obstacle to obstacle");
+    field("rubble_max_m", rubble_max_m, Bounds{0.05, 0.5}, "highest lump of rubble");
+    field("step_min_m", step_min_m, Bounds{0.02, 1.0}, "lowest step");
+    field("step_max_m", step_max_m, Bounds{0.02, 1.0}, "highest step");
+    field("easy_step_m", easy_step_m, Bounds{0.02, 1.0}, "steps up to it cross the whole drift");
+    field("hole_min_m", hole_min_m, Bounds{0.1, 2.0}, "edge of the smallest hole");
+    field("hole_max_m", hole_max_m, Bounds{0.1, 2.0}, "edge of the largest hole");
+    field("hole_depth_m", hole_depth_m, Bounds{0.1, 3.0}, "depth of holes");
+  }
+};
+
 /// Kind "room": one room with a pillar and an alcove.
 struct RoomParams {
   double size_x_m = 12.0;
@@ -161,6 +224,8 @@ struct MazeParams {
 void layOut(const DriftsParams& params, WorldPlan& plan);
 void layOut(const RoomsParams& params, WorldPlan& plan);
 void layOut(const CaveParams& params, WorldPlan& plan);
+void layOut(const RampsParams& params, WorldPlan& plan);
+void layOut(const RoughParams& params, WorldPlan& plan);
 void layOut(const RoomParams& params, WorldPlan& plan);
 void layOut(const MazeParams& params, WorldPlan& plan);
 

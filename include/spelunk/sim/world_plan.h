@@ -19,6 +19,9 @@ struct Station {
 /// A gallery along a polyline of at least two stations, linear in between, round at its ends.
 struct Passage {
   std::vector<Station> stations;
+  /// How far below its floor a passage is still itself where stations meet. The default notches a
+  /// sloping floor at its stations; half a width and more keeps it even.
+  double root_m = 0.8;
 };
 
 /// A dome over an elliptic floor.
@@ -41,6 +44,19 @@ struct Pillar {
   Eigen::Vector2d size{1.0, 1.0};
 };
 
+/// A box of rock parallel to the axes: a step, a rail, a lump of rubble.
+struct Block {
+  Eigen::Vector3d centre = Eigen::Vector3d::Zero();
+  Eigen::Vector3d size = Eigen::Vector3d::Ones();
+};
+
+/// A hole in the floor with upright walls, parallel to the axes.
+struct Pit {
+  Eigen::Vector3d top = Eigen::Vector3d::Zero();  ///< Its middle, at the height of the floor.
+  Eigen::Vector2d size{1.0, 1.0};
+  double depth = 1.0;
+};
+
 /// A world before it becomes a mesh: the space that is free for certain. Metres, world frame, z up.
 /// Roughness only carves further into the rock, so widths and heights are guaranteed minima up to
 /// about a tenth of `cell_m`.
@@ -50,6 +66,8 @@ struct WorldPlan {
   std::vector<Chamber> chambers;
   std::vector<Hall> halls;
   std::vector<Pillar> pillars;
+  std::vector<Block> blocks;
+  std::vector<Pit> pits;
   Pose start;
   double roughness_m = 0.3;  ///< Greatest depth of the roughness of walls; floors have a quarter.
   double grain_m = 3.5;      ///< Size of the bulges of that roughness.

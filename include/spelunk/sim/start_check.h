@@ -1,0 +1,22 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+
+#include "spelunk/sim/mesh_scene.h"
+#include "spelunk/sim/world_mesh.h"
+
+namespace spelunk::sim {
+
+/// "(x, y, z)" for messages.
+[[nodiscard]] std::string textOf(const Eigen::Vector3d& position);
+
+/// Throws OutsideError if `start` is not finite or outside the mesh's bounds.
+void requireInside(const WorldMesh& mesh, const Pose& start);
+
+/// Throws OutsideError if an axis-aligned box of `size_m` around `position` meets the mesh;
+/// `size_key` is the parameter that sets its size.
+void requireFreeBody(const MeshScene& scene, const WorldMesh& mesh, const Eigen::Vector3d& position,
+                     const Eigen::Vector3d& size_m, const std::string& size_key);
+
+}  // namespace spelunk::sim
