@@ -102,9 +102,14 @@ SimSetup loadSimSetup(const ::ros::NodeHandle& private_node) {
   (void)planners::makePlanner(config.planner, config.tree, config.robot, config.map.resolution_m);
   config.tree.requireClean();
   setup.robot = config.robot;
-  setup.world = sim::openWorld(setup.node.world, setup.node.worlds_dir, setup.node.cache_dir);
-  setup.start = startOf(setup.node, setup.world);
   return setup;
+}
+
+SimWorld openWorld(const SimNodeParams& params) {
+  SimWorld world;
+  world.mesh = sim::openWorld(params.world, params.worlds_dir, params.cache_dir);
+  world.start = startOf(params, world.mesh);
+  return world;
 }
 
 }  // namespace spelunk::bridge

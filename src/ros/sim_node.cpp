@@ -14,6 +14,7 @@
 
 #include "spelunk/navigation/trajectory_timing.h"
 #include "spelunk/ros/convert.h"
+#include "spelunk/ros/convert_robot.h"
 #include "spelunk/ros/mesh_marker.h"
 #include "spelunk/ros/pacer.h"
 
@@ -35,11 +36,11 @@ geometry_msgs::TransformStamped transformMsg(const Eigen::Isometry3d& T_parent_c
 
 }  // namespace
 
-SimNode::SimNode(const ::ros::NodeHandle& node, SimSetup setup)
+SimNode::SimNode(const ::ros::NodeHandle& node, const SimSetup& setup, const SimWorld& world)
     : params_(setup.node),
       robot_(setup.robot),
-      mesh_(meshMarker(setup.world, params_.world_frame)),
-      simulator_(setup.sim, setup.robot, setup.world, setup.start,
+      mesh_(meshMarker(world.mesh, params_.world_frame)),
+      simulator_(setup.sim, setup.robot, world.mesh, world.start,
                  static_cast<std::uint64_t>(params_.seed)),
       node_(node),
       clock_(node_.advertise<rosgraph_msgs::Clock>("/clock", 10)),
@@ -54,7 +55,11 @@ SimNode::SimNode(const ::ros::NodeHandle& node, SimSetup setup)
           })),
       trajectory_subscriber_(node_.subscribe("command/trajectory", 5, &SimNode::onTrajectory, this,
                                              ::ros::TransportHints().tcpNoDelay())),
-      path_subscriber_(node_.subscribe("path", 5, &SimNode::onPath, this)) {}
+      path_subscriber_(node_.subscribe("path", 5, &SimNode::onPath, this)),
+      drive_subscriber_(node_.subscribe("cmd_vel", 5, &SimNode::onDrive, this,
+                                        ::ros::TransportHints().tcpNoDelay())) {
+  if (kindOf(robot_) == RobotKind::kLegged) walker_outputs_.emplace(node_, params_.world_frame);
+}
 
 void SimNode::run() {
   Pacer pacer(params_.speed_factor);
@@ -75,6 +80,7 @@ void SimNode::step(double time_s) {
   publishState();
   publishScans(scans);
   publishCollisions();
+  if (walker_outputs_) walker_outputs_->publish(simulator_);
   if (time_s < next_battery_s_) return;
   next_battery_s_ = time_s + kBatteryPeriod_s;
   publishBattery();
@@ -89,11 +95,8 @@ void SimNode::publishClock() {
 void SimNode::publishState() {
   const RobotState state = simulator_.odometry();
   const ::ros::Time stamp(simulator_.time());
-  Eigen::Isometry3d T_world_body = Eigen::Isometry3d::Identity();
-  T_world_body.linear() = state.orientation.toRotationMatrix();
-  T_world_body.translation() = state.pose.position;
   std::vector<geometry_msgs::TransformStamped> transforms = {
-      transformMsg(T_world_body, params_.world_frame, params_.base_frame, stamp)};
+      transformMsg(T_world_body(state), params_.world_frame, params_.base_frame, stamp)};
   for (const SensorModel& sensor : robot_.sensor_models)
     transforms.push_back(
         transformMsg(T_base_sensor(sensor), params_.base_frame, sensor.name, stamp));
@@ -163,6 +166,14 @@ void SimNode::onPath(const nav_msgs::Path::ConstPtr& message) {
   from_here.insert(from_here.begin(), state.pose);
   simulator_.follow(navigation::timed(from_here, limitsOf(robot_),
                                       {simulator_.time(), state.velocity, state.yaw_rate}));
+}
+
+void SimNode::onDrive(const geometry_msgs::Twist::ConstPtr& message) {
+  const auto command = fromMsg(*message);
+  if (!command.value) return refuse("cmd_vel", command.problem);
+  const sim::DriveAnswer answer = simulator_.drive(*command.value);
+  if (!answer.warning.empty() && throttle_.allows("cmd_vel limits", simulator_.time()))
+    log(LogLevel::kWarn, "cmd_vel: " + answer.warning);
 }
 
 }  // namespace spelunk::bridge

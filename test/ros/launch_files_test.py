@@ -10,7 +10,8 @@ import roslaunch
 import rostest
 import yaml
 
-PUBLISHED = {"/map_cloud", "/markers", "/path", "/pointcloud", "/mesh"}
+PUBLISHED = {"/map_cloud", "/markers", "/path", "/pointcloud", "/mesh", "/elevation",
+             "/traversability", "/feet"}
 
 
 class LaunchFiles(unittest.TestCase):
@@ -24,7 +25,7 @@ class LaunchFiles(unittest.TestCase):
     def test_every_file_loads_and_names_existing_programs(self):
         files = sorted(os.path.basename(path)
                        for path in glob.glob(os.path.join(self.package, "launch", "*.launch")))
-        self.assertIn("aerial.launch", files)
+        self.assertLessEqual({"aerial.launch", "walker.launch"}, set(files))
         for name in files:
             config = self.load(name)
             self.assertEqual(config.config_errors, [], name)
@@ -42,6 +43,17 @@ class LaunchFiles(unittest.TestCase):
         self.assertEqual(values["/sim_node/speed_factor"], 2.5)
         self.assertTrue(values["/use_sim_time"])
         self.assertEqual({node.name for node in config.nodes}, {"sim_node", "planner_node"})
+
+    def test_both_nodes_of_the_walker_are_told_so_and_its_legs_are_shown(self):
+        config = self.load("walker.launch", ["seed:=7", "rviz:=true"])
+        values = {name: parameter.value for name, parameter in config.params.items()}
+        self.assertEqual(values["/sim_node/robot"], "walker")
+        self.assertEqual(values["/planner_node/robot"], "walker")
+        self.assertEqual(values["/planner_node/seed"], 7)
+        self.assertEqual({node.name for node in config.nodes},
+                         {"sim_node", "planner_node", "robot_state_publisher", "rviz"})
+        required = {node.name for node in config.nodes if node.required}
+        self.assertNotIn("robot_state_publisher", required, "it is only for display")
 
     def test_overrides_reach_both_nodes(self):
         overrides = os.path.join(self.package, "test", "ros", "room_overrides.yaml")

@@ -26,12 +26,16 @@ struct PlannerSetup {
   std::unique_ptr<planners::ExplorationPlanner> planner;
 };
 
-/// All that sim_node is built from.
+/// All that sim_node is built from, besides its world.
 struct SimSetup {
   SimNodeParams node;
   RobotModel robot;
   sim::SimParams sim;
-  sim::WorldMesh world;
+};
+
+/// Where the robot is to be.
+struct SimWorld {
+  sim::WorldMesh mesh;
   Pose start;
 };
 
@@ -39,5 +43,9 @@ struct SimSetup {
 /// OutsideError with every problem at once: unreadable, out of range, unknown.
 [[nodiscard]] PlannerSetup loadPlannerSetup(const ::ros::NodeHandle& private_node);
 [[nodiscard]] SimSetup loadSimSetup(const ::ros::NodeHandle& private_node);
+
+/// Opens the world that ~world names, and generates it first where that has not been done. Throws
+/// OutsideError if it cannot be opened, or if neither it nor ~start says where to start.
+[[nodiscard]] SimWorld openWorld(const SimNodeParams& params);
 
 }  // namespace spelunk::bridge
