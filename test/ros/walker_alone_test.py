@@ -36,7 +36,7 @@ class WalkerAlone(unittest.TestCase):
         cls.joints = Listener("joint_states", JointState)
         cls.feet = Listener("feet", MarkerArray)
         cls.falls = Listener("falls", UInt32)
-        cls.log = Listener("/rosout_agg", Log)
+        cls.log = Listener("/rosout", Log)
         cls.tf_buffer = tf2_ros.Buffer()
         cls.tf_listener = tf2_ros.TransformListener(cls.tf_buffer)
         cls.drive = rospy.Publisher("cmd_vel", Twist, queue_size=5)
