@@ -81,6 +81,7 @@ void listParams(const Options& options) {
     printTable(spelunk::describe("sensor." + sensor.name, sensor));
   printTable(spelunk::describe("map", loaded.config.map));
   printTable(spelunk::describe("mission", loaded.config.mission));
+  printTable(spelunk::describe("terrain", loaded.config.terrain));
   printTable(spelunk::planners::describePlanner(options.planner, loaded.config.tree));
   printTable(spelunk::describe("sim", loaded.sim));
 }
@@ -153,6 +154,7 @@ int fly(const Options& options, bool quiet) {
   setup.sim = loaded.sim;
   setup.map = loaded.config.map;
   setup.mission = loaded.config.mission;
+  setup.terrain = loaded.config.terrain;
   setup.start = startOf(options, mesh);
   setup.seed = options.seed;
   setup.time_limit_s = options.time_limit_s;

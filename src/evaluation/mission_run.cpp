@@ -23,7 +23,7 @@ struct MissionRun::Impl {
       : setup(run_setup),
         planner(run_planner),
         simulator(setup.sim, setup.robot, mesh, setup.start, setup.seed),
-        mission(setup.mission, setup.robot, setup.map, setup.seed),
+        mission(setup.mission, setup.robot, setup.map, setup.seed, setup.terrain),
         explored(mesh.bounds()) {
     record.min_clearance_m = kClearanceLimit_m;
     last_position = simulator.trueState().pose.position;
@@ -148,7 +148,8 @@ Progress MissionRun::Impl::progress() const {
 }
 
 bool MissionRun::Impl::isOver() const {
-  return mission.status().state == mission::MissionState::kDone || remaining() <= kOutOfEndurance_s;
+  return mission.status().state == mission::MissionState::kDone ||
+         simulator.walkerCount().falls > 0 || remaining() <= kOutOfEndurance_s;
 }
 
 void MissionRun::Impl::finish() {
@@ -158,14 +159,17 @@ void MissionRun::Impl::finish() {
   record.explored_volume_m3 = explored.volume_m3();
   record.collisions = simulator.collisions().episodes;
   record.collision_s = simulator.collisions().seconds;
+  record.falls = simulator.walkerCount().falls;
+  record.slips = simulator.walkerCount().slips;
+  record.zones_marked = status.zones_marked;
   record.returned_home = status.state == mission::MissionState::kDone;
   record.remaining_at_home_s = record.returned_home ? remaining() : 0.0;
   record.ended_as_it_may = record.returned_home && remaining() > 0.0;
   record.remaining_targets = mission.remaining();
-  record.outcome = record.returned_home
-                       ? status.end_reason
-                       : "stranded " + std::to_string(distance(pose, setup.start)) +
-                             " m from home: " + status.reason;
+  record.outcome = record.returned_home ? status.end_reason
+                                        : (record.falls > 0 ? "fell " : "stranded ") +
+                                              std::to_string(distance(pose, setup.start)) +
+                                              " m from home: " + status.reason;
 }
 
 RunRecord MissionRun::Impl::fly(const std::function<void(const Progress&)>& show) {

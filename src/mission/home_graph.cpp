@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <utility>
 
 #include "spelunk/navigation/swept_path_check.h"
 
@@ -20,8 +21,12 @@ constexpr std::size_t kRechecksPerCall = 20;
 
 }  // namespace
 
-HomeGraph::HomeGraph(const Pose& home, const Eigen::Vector3d& box, double resolution_m)
-    : box_(box), swept_(box, resolution_m), swept_tight_(tightBox(box), resolution_m) {
+HomeGraph::HomeGraph(const Pose& home, const Eigen::Vector3d& box, double resolution_m,
+                     Footing footing)
+    : box_(box),
+      footing_(std::move(footing)),
+      swept_(box, resolution_m),
+      swept_tight_(tightBox(box), resolution_m) {
   trail_.push_back(home);
   last_trail_vertex_ = addVertex(home.position);
 }
@@ -34,7 +39,7 @@ graph::VertexId HomeGraph::addVertex(const Eigen::Vector3d& position) {
 void HomeGraph::addEdge(graph::VertexId a, graph::VertexId b, Origin origin) {
   if (a == b || graph_.hasEdge(a, b)) return;
   const auto id = static_cast<std::uint32_t>(edges_.size());
-  edges_.push_back({a, b, origin == Origin::kFlown, EdgeState::kOpen});
+  edges_.push_back({a, b, origin == Origin::kFlown, false, EdgeState::kOpen});
   const Eigen::Vector3d& from = graph_.position(a);
   const Eigen::Vector3d& to = graph_.position(b);
   graph_.addEdge(a, b, (to - from).norm());
@@ -75,6 +80,16 @@ void HomeGraph::setState(Edge& edge, EdgeState state) {
   }
 }
 
+void HomeGraph::noteZone(const NoGoZone& zone) {
+  for (Edge& edge : edges_) {
+    if (edge.is_flown ||
+        !sweptBoxMeets(zone, graph_.position(edge.a), graph_.position(edge.b), box_))
+      continue;
+    edge.is_forbidden = true;
+    setState(edge, EdgeState::kCut);
+  }
+}
+
 void HomeGraph::noteOccupied(const std::vector<map::VoxelIndex>& voxels) {
   for (const map::VoxelIndex& voxel : voxels) {
     for (const auto& hit : swept_.touching(voxel)) {
@@ -94,6 +109,7 @@ bool HomeGraph::isFree(graph::VertexId a, graph::VertexId b, const Eigen::Vector
 }
 
 void HomeGraph::recheck(Edge& edge, const map::FrozenMap& map) {
+  if (edge.is_forbidden) return;
   if (isFree(edge.a, edge.b, box_, map)) {
     setState(edge, EdgeState::kOpen);
   } else if (edge.is_flown && isFree(edge.a, edge.b, tightBox(box_), map)) {
@@ -128,7 +144,9 @@ void HomeGraph::tryShortcuts(graph::VertexId id, const map::FrozenMap& map) {
         static_cast<double>(graph::indexOf(id) - graph::indexOf(other)) * kTrailSpacing_m;
     if (between < kShortcutWorth * std::max(gap, kTrailSpacing_m)) continue;
     if (++tries > kShortcutTries) return;
-    if (isFree(id, other, box_, map)) addEdge(id, other, Origin::kChecked);
+    if (!isFree(id, other, box_, map)) continue;
+    if (footing_ && !footing_(map, graph_.position(id), graph_.position(other))) continue;
+    addEdge(id, other, Origin::kChecked);
   }
 }
 

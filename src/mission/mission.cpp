@@ -39,8 +39,9 @@ PlanOutcome run(const PlanJob& job, planners::ExplorationPlanner& planner) {
 }
 
 Mission::Mission(const MissionParams& params, const RobotModel& robot,
-                 const map::MapParams& map_params, std::uint64_t seed)
-    : impl_(new Impl(params, robot, map_params, seed)) {}
+                 const map::MapParams& map_params, std::uint64_t seed,
+                 const terrain::TerrainParams& terrain)
+    : impl_(new Impl(params, robot, map_params, seed, terrain)) {}
 Mission::~Mission() = default;
 
 void Mission::onOdometry(const RobotState& state) { impl_->takeOdometry(state); }
@@ -87,6 +88,9 @@ const std::vector<planners::RemainingTarget>& Mission::remaining() const {
 }
 map::OccupancyMap& Mission::map() { return impl_->map; }
 const RobotModel& Mission::robot() const { return impl_->robot; }
+std::shared_ptr<const terrain::TerrainView> Mission::terrain() {
+  return impl_->terrain ? impl_->terrain->freeze() : nullptr;
+}
 
 Answer Mission::save(const std::string& folder, const planners::PlannerGraph& graph) {
   try {

@@ -25,13 +25,16 @@ std::string withNumber(const char* format, double value) {
 }  // namespace
 
 Mission::Impl::Impl(const MissionParams& mission_params, const RobotModel& robot_model,
-                    const map::MapParams& map_params, std::uint64_t seed)
+                    const map::MapParams& map_params, std::uint64_t seed,
+                    const terrain::TerrainParams& terrain_params)
     : params(mission_params),
       robot(robot_model),
       map(map_params),
       rng(Rng(seed).fork("mission")),
       input(robot_model.speed_max_mps),
-      guard({mission_params.reserve_s, mission_params.reserve_percent, mission_params.pessimism}) {}
+      guard({mission_params.reserve_s, mission_params.reserve_percent, mission_params.pessimism}) {
+  if (kindOf(robot) == RobotKind::kLegged) terrain.emplace(terrain_params);
+}
 
 std::optional<Command> Mission::Impl::tick(double now_s) {
   now = now_s;
@@ -41,6 +44,8 @@ std::optional<Command> Mission::Impl::tick(double now_s) {
   checkDeviation();
   checkArrival();
   checkAhead();
+  checkGround();
+  stepBackOff();
   checkEndurance();
   stepHome();
   stepGoTo();
@@ -64,6 +69,9 @@ bool Mission::Impl::isFlying() const { return goal != Goal::kNone; }
 std::optional<Command> Mission::Impl::takeCommand() {
   std::optional<Command> taken = std::move(command);
   command.reset();
+  if (!taken) return taken;
+  for (Pose& pose : taken->path) pose.position.z() -= robot.box_lift_m;
+  for (TrajectoryPoint& point : taken->trajectory) point.pose.position.z() -= robot.box_lift_m;
   return taken;
 }
 

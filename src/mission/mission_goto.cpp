@@ -23,7 +23,9 @@ std::string Mission::Impl::goToProblem(const Path& path) {
   return "";
 }
 
-Answer Mission::Impl::goTo(const Path& path) {
+Answer Mission::Impl::goTo(const Path& base_path) {
+  Path path = base_path;
+  for (Pose& pose : path) pose.position.z() += robot.box_lift_m;
   std::string problem = goToProblem(path);
   if (problem.empty()) {
     takeOff();

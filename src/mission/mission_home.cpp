@@ -136,7 +136,7 @@ Path Mission::Impl::fromMotion(const WayHome& way) const {
 void Mission::Impl::launchHome() {
   if (!active && isAtHome()) return;
   auto by_trail = wayByTrail();
-  if (by_trail) {
+  if (by_trail && !terrain) {
     navigation::SegmentChecker checker(map.freeze(), robot.box_m);
     by_trail->path = navigation::shortened(by_trail->path, checker, kShortenReach_m);
     by_trail->travel_s = navigation::travelTime(by_trail->path, limitsOf(robot));

@@ -15,6 +15,8 @@
 #include "spelunk/mission/path_execution.h"
 #include "spelunk/navigation/swept_path_check.h"
 #include "spelunk/navigation/trajectory_timing.h"
+#include "spelunk/terrain/ground_rules.h"
+#include "spelunk/terrain/terrain_map.h"
 
 namespace spelunk::mission {
 
@@ -45,12 +47,13 @@ struct WayHome {
 };
 
 /// State and steps of the mission. Steps that belong together share a .cpp:
-/// mission_inputs, mission_goto, mission_cycle, mission_plans, mission_home.
+/// mission_inputs, mission_goto, mission_cycle, mission_ground, mission_plans, mission_home.
 constexpr double kBodyShare = 0.5;  // of the safety box: returns from there are the robot itself
 
 struct Mission::Impl {
   Impl(const MissionParams& mission_params, const RobotModel& robot_model,
-       const map::MapParams& map_params, std::uint64_t seed);
+       const map::MapParams& map_params, std::uint64_t seed,
+       const terrain::TerrainParams& terrain_params);
 
   // --- Inputs (mission_inputs.cpp).
   void takeOdometry(const RobotState& state);
@@ -89,6 +92,15 @@ struct Mission::Impl {
   [[nodiscard]] bool isAtRest() const;
   std::optional<Command> takeCommand();
 
+  // --- The ground under a robot with legs (mission_ground.cpp).
+  void noteGround(const Scan& scan);
+  void checkGround();
+  void avoid(const terrain::PathGroundCheck& bad);
+  void stepBackOff();
+  [[nodiscard]] Path motionAhead(double length_m) const;
+  [[nodiscard]] bool isWalkable(const Path& path);
+  [[nodiscard]] HomeGraph::Footing footingCheck();
+
   // --- Plans (mission_plans.cpp).
   void askForPlan();
   [[nodiscard]] bool wantsPlan() const;
@@ -125,6 +137,7 @@ struct Mission::Impl {
   MissionParams params;
   RobotModel robot;
   map::OccupancyMap map;
+  std::optional<terrain::TerrainMap> terrain;
   Rng rng;
   InputGuard input;
   EnduranceGuard guard;
@@ -150,6 +163,9 @@ struct Mission::Impl {
   AxisAlignedBox limits;
   std::vector<NoGoZone> no_go;
   std::shared_ptr<const map::FrozenMap> frozen;
+  Eigen::Isometry3d T_world_base = Eigen::Isometry3d::Identity();  ///< Newest, of the base itself.
+  double next_ground_check_s = 0.0;
+  bool backs_off = false;
 
   // --- Plans.
   std::optional<PlanJob> pending;

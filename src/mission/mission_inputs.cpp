@@ -14,7 +14,9 @@ bool isFinitePose(const Eigen::Isometry3d& pose) { return pose.matrix().allFinit
 
 }  // namespace
 
-void Mission::Impl::takeOdometry(const RobotState& report) {
+void Mission::Impl::takeOdometry(const RobotState& base) {
+  RobotState report = base;
+  report.pose.position.z() += robot.box_lift_m;
   const auto fault = input.check(report);
   if (fault) {
     input_fault = fault;
@@ -25,6 +27,7 @@ void Mission::Impl::takeOdometry(const RobotState& report) {
   last_pose = report.pose;
   input_fault.reset();
   last_odometry_s = std::max(now, report.stamp_s);
+  T_world_base = Eigen::Translation3d(base.pose.position) * base.orientation;
   if (!home_graph) return;
   const Pose& pose = report.pose;
   const std::size_t before = home_graph->trail().size();
@@ -52,6 +55,7 @@ map::MapUpdate Mission::Impl::takeScan(const Scan& scan) {
   const Eigen::Vector3d centre =
       input.latest() ? input.latest()->pose.position : scan.T_world_sensor.translation();
   map::MapUpdate update = map.insert(scan, boxAround(centre, kBodyShare * robot.box_m));
+  noteGround(scan);
   status.last_map_update_ms = watch.milliseconds();
   last_scan_s = std::max(now, scan.stamp_s);
   ++scans;
@@ -94,9 +98,14 @@ std::string Mission::Impl::startProblem() {
 void Mission::Impl::takeOff() {
   const Pose pose = input.latest()->pose;
   if (!home_graph) {
-    home_graph.emplace(pose, robot.box_m, map.params().resolution_m);
+    home_graph.emplace(pose, robot.box_m, map.params().resolution_m, footingCheck());
     const Eigen::Vector3d room = params.start_clearance_m * Eigen::Vector3d(1.0, 1.0, 0.5);
-    map.markFree(boxAround(pose.position, robot.box_m + 2.0 * room));
+    AxisAlignedBox start = boxAround(pose.position, robot.box_m + 2.0 * room);
+    if (terrain) {
+      start.min.z() = pose.position.z() - 0.5 * robot.box_m.z();  // below it there is ground
+      terrain->assumeGroundUnder(T_world_base);
+    }
+    map.markFree(start);
     stamped_trail.push_back({input.latest()->stamp_s, pose});
   }
   if (!started_s) started_s = now;
@@ -145,7 +154,7 @@ void Mission::Impl::takeUp(const MissionRecord& record) {
   limits = record.bounds;
   no_go = record.zones;
   if (record.trail.empty()) return;
-  home_graph.emplace(record.trail.front(), robot.box_m, map.params().resolution_m);
+  home_graph.emplace(record.trail.front(), robot.box_m, map.params().resolution_m, footingCheck());
   for (const Pose& pose : record.trail) home_graph->addTrail(pose);
 }
 

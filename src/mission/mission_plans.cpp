@@ -41,7 +41,7 @@ bool Mission::Impl::wantsPlanInFlight() const {
 
 bool Mission::Impl::wantsPlan() const {
   if (goal == Goal::kGoTo) return false;
-  if (!inputs_ok || pending || running || now < next_ask_s) return false;
+  if (!inputs_ok || pending || running || backs_off || now < next_ask_s) return false;
   if (goal == Goal::kHome) return wants_way_home && (active || isAtRest());
   if (active) return wantsPlanInFlight();
   return scans >= kScansBeforePlan && isAtRest();
@@ -143,6 +143,9 @@ void Mission::Impl::acceptExploration(const RunningJob& job, const PlanOutcome& 
   if (!splices && !stands)
     return refuse("the plan came too late: its start lies behind the robot",
                   planners::PathOutcome::kRejectedUnsafe);
+  if (!isWalkable(outcome.plan.path))
+    return refuse("refused the planner's path: no footing along it",
+                  planners::PathOutcome::kRejectedUnsafe);
   const auto check = checkProposal(outcome.plan.path);
   if (!check.isFree())
     return refuse("refused the planner's path: " + std::string(navigation::toText(check.fault)) +
@@ -200,7 +203,8 @@ void Mission::Impl::onNoPlan(const RunningJob& job, const planners::PlanResult& 
     if (active) next_ask_s = std::min(next_ask_s, active->endTime() + 0.1);
     return;
   }
-  if (plan.status == planners::PlanStatus::kNothingToGain) return goHome("explored: " + plan.reason);
+  if (plan.status == planners::PlanStatus::kNothingToGain)
+    return goHome("explored: " + plan.reason);
   if (plan.status == planners::PlanStatus::kBudgetSaysHome)
     return goHome("home by endurance: " + plan.reason);
   onFailedPlan(std::string(planners::toText(plan.status)) + ": " + plan.reason);

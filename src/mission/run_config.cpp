@@ -56,14 +56,18 @@ RunConfig loadRunConfig(const RunChoice& choice) {
   RunConfig config;
   const std::string dir = choice.share_dir + "/config";
   addNamed(config.tree, dir + "/robots", "robot", choice.robot);
-  for (const char* name : {"map", "mission", "sim"})
+  const bool is_legged = config.tree.textOf("robot.kind", "aerial") == "legged";
+  for (const char* name : {"map", "mission", "sim", "terrain"})
     addIfPresent(config.tree, dir + "/" + name + ".yaml");
   addIfPresent(config.tree, dir + "/planners/" + choice.planner + ".yaml");
+  if (is_legged) addIfPresent(config.tree, dir + "/planners/" + choice.planner + "_legged.yaml");
   for (const std::string& assignment : choice.assignments)
     config.tree.setAssignment(assignment, choice.assignments_origin);
   config.robot = loadRobot(config.tree, choice.robot, dir);
   config.tree.read("map", config.map);
   config.tree.read("mission", config.mission);
+  config.tree.read("terrain", config.terrain);
+  for (const std::string& problem : config.terrain.problems()) config.tree.addProblem(problem);
   config.planner = choice.planner;
   return config;
 }

@@ -88,6 +88,7 @@ PlannerSetup loadPlannerSetup(const ::ros::NodeHandle& private_node) {
   setup.robot = config.robot;
   setup.mission = config.mission;
   setup.map = config.map;
+  setup.terrain = config.terrain;
   return setup;
 }
 

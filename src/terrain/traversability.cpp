@@ -62,6 +62,24 @@ class Rating {
 
 }  // namespace
 
+const char* toText(GroundClass ground) {
+  switch (ground) {
+    case GroundClass::kUnknown:
+      return "not seen";
+    case GroundClass::kTraversable:
+      return "traversable";
+    case GroundClass::kTooSteep:
+      return "too steep";
+    case GroundClass::kStep:
+      return "a step";
+    case GroundClass::kTooRough:
+      return "too rough";
+    case GroundClass::kDrop:
+      return "a drop";
+  }
+  return "";
+}
+
 std::vector<std::string> TraversabilityParams::problems() const {
   std::vector<std::string> problems;
   if (slope_weight + step_weight + roughness_weight <= 0.0)

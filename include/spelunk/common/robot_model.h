@@ -16,7 +16,11 @@ enum class RobotKind { kAerial, kLegged };
 struct RobotModel {
   std::string name = "aerial";
   std::string kind = "aerial";           ///< "aerial" or "legged"
-  Eigen::Vector3d box_m{1.1, 1.1, 0.4};  ///< Full extents; axis-aligned, centred at base.
+  Eigen::Vector3d box_m{1.1, 1.1, 0.4};  ///< Full extents; axis-aligned.
+  double box_lift_m = 0.0;               ///< Centre of the box above the base.
+  double ride_height_m = 0.0;            ///< Base above the ground; legged only.
+  double slope_max_deg = 20.0;           ///< Of ground it can walk on; legged only.
+  double step_max_m = 0.2;               ///< Up or down; legged only.
   double speed_max_mps = 2.0;
   double acceleration_max_mps2 = 2.0;
   double yaw_rate_max_radps = 1.2;
@@ -32,6 +36,10 @@ struct RobotModel {
     field("kind", kind, Bounds{}, "aerial or legged");
     field("box_m", box_m, Bounds{0.05, 10.0}, "length, width, height, safety margin included",
           Audience::kUser);
+    field("box_lift_m", box_lift_m, Bounds{-2.0, 2.0}, "centre of the box above the base");
+    field("ride_height_m", ride_height_m, Bounds{0.0, 3.0}, "base above the ground (legged)");
+    field("slope_max_deg", slope_max_deg, Bounds{1.0, 60.0}, "ground it can walk on (legged)");
+    field("step_max_m", step_max_m, Bounds{0.0, 1.0}, "step it can take (legged)");
     field("speed_max_mps", speed_max_mps, Bounds{0.05, 20.0}, "cruising speed", Audience::kUser);
     field("acceleration_max_mps2", acceleration_max_mps2, Bounds{0.1, 20.0},
           "acceleration of planned motion");

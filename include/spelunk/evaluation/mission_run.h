@@ -46,6 +46,9 @@ struct RunRecord {
   int collisions = 0;
   double collision_s = 0.0;
   double min_clearance_m = 0.0;  ///< Of the robot's body to the mesh.
+  int falls = 0;
+  int slips = 0;
+  int zones_marked = 0;
   double remaining_at_home_s = 0.0;
   std::vector<TimelineRow> timeline;
   std::vector<PlanRow> plans;
@@ -67,6 +70,7 @@ struct RunSetup {
   sim::SimParams sim;
   map::MapParams map;
   mission::MissionParams mission;
+  terrain::TerrainParams terrain;
   Pose start;
   AxisAlignedBox bounds;  ///< Of exploration.
   std::vector<NoGoZone> zones;

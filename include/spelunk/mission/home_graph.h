@@ -2,10 +2,12 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <vector>
 
+#include "spelunk/common/box.h"
 #include "spelunk/common/path.h"
 #include "spelunk/graph/shortest_paths.h"
 #include "spelunk/graph/spatial_graph.h"
@@ -20,8 +22,14 @@ namespace spelunk::mission {
 /// fits, for it has been there; they are then used only where nothing else is left.
 class HomeGraph {
  public:
-  /// `box`: the robot's, full extents, metres, margin included.
-  HomeGraph(const Pose& home, const Eigen::Vector3d& box, double resolution_m);
+  /// Whether a robot with legs finds footing on the straight way between two places.
+  using Footing =
+      std::function<bool(const map::FrozenMap&, const Eigen::Vector3d&, const Eigen::Vector3d&)>;
+
+  /// `box`: the robot's, full extents, metres, margin included. `footing`: asked before a shortcut
+  /// is taken up; empty for robots that fly.
+  HomeGraph(const Pose& home, const Eigen::Vector3d& box, double resolution_m,
+            Footing footing = {});
 
   /// The box that flown edges are checked with in the last resort.
   [[nodiscard]] static Eigen::Vector3d tightBox(const Eigen::Vector3d& box) { return 0.75 * box; }
@@ -30,6 +38,8 @@ class HomeGraph {
   void addTrail(const Pose& pose);
   /// A path known to be free that begins near the trail; its waypoints join the graph.
   void addRoute(const Path& route);
+  /// Cuts for good the edges that meet a no-go zone, unless the robot itself came that way.
+  void noteZone(const NoGoZone& zone);
   /// Cuts the edges that the box could not fly any more.
   void noteOccupied(const std::vector<map::VoxelIndex>& voxels);
   /// Tries shortcuts from the places added since the last call and takes up cut edges that are free
@@ -52,6 +62,7 @@ class HomeGraph {
     graph::VertexId a{};
     graph::VertexId b{};
     bool is_flown = false;
+    bool is_forbidden = false;
     EdgeState state = EdgeState::kOpen;
   };
   enum class Origin { kFlown, kChecked };
@@ -66,6 +77,7 @@ class HomeGraph {
   const graph::ShortestPaths& fromHome();
 
   Eigen::Vector3d box_;
+  Footing footing_;
   graph::SpatialGraph graph_;
   std::vector<Edge> edges_;
   navigation::SweptIndex swept_;

@@ -10,6 +10,7 @@
 #include "spelunk/common/trajectory.h"
 #include "spelunk/map/occupancy_map.h"
 #include "spelunk/planners/exploration_planner.h"
+#include "spelunk/terrain/terrain_map.h"
 
 namespace spelunk::mission {
 
@@ -23,6 +24,7 @@ struct MissionParams {
   double pessimism = 1.15;    ///< Travel times are taken this much longer.
   double plan_ahead_s = 1.5;  ///< A new path takes over this long after it was asked for.
   double deviation_max_m = 0.8;
+  bool verify_ground = true;  ///< Legged robots only.
   double home_radius_m = 1.0;
   double replan_period_s = 2.0;    ///< Local paths are renewed this often while they are flown.
   double start_clearance_m = 1.0;  ///< Unknown space so near around the start counts as free.
@@ -38,6 +40,8 @@ struct MissionParams {
     field("plan_ahead_s", plan_ahead_s, Bounds{0.0, 30.0}, "the next path starts this far ahead");
     field("deviation_max_m", deviation_max_m, Bounds{0.05, 10.0},
           "farther from the path: hold and replan");
+    field("verify_ground", verify_ground, Bounds{},
+          "look at the ground ahead while walking (legged)");
     field("home_radius_m", home_radius_m, Bounds{0.1, 10.0}, "nearer counts as home");
     field("replan_period_s", replan_period_s, Bounds{0.2, 1000.0},
           "a local path is renewed so often");
@@ -93,6 +97,7 @@ struct MissionStatus {
   int replans_obstacle = 0;
   int replans_deviation = 0;
   int refused_paths = 0;
+  int zones_marked = 0;  ///< No-go zones made around untraversable ground.
   planners::PlanStats last_stats;
   double last_map_update_ms = 0.0;
 };
@@ -104,11 +109,16 @@ struct MissionStatus {
 /// pessimistic travel time fits the remaining endurance; a path is accepted only if that still
 /// holds at its end.
 ///
+/// Robots with legs: while walking, the ground ahead is checked in the terrain map again and again;
+/// where it is untraversable the robot stops, goes back half a metre, marks the place as a no-go
+/// zone for good and plans anew (Dang 2020, section 4.3). Poses that go to planners and into maps
+/// are those of the centre of the robot's box, box_lift_m above its base.
+///
 /// No threads, no clock, no ROS inside: the owner calls from one thread at a time.
 class Mission {
  public:
   Mission(const MissionParams& params, const RobotModel& robot, const map::MapParams& map_params,
-          std::uint64_t seed);
+          std::uint64_t seed, const terrain::TerrainParams& terrain = {});
   ~Mission();
 
   // --- What the robot reports. Odd input is refused with a throttled message, never thrown.
@@ -149,6 +159,8 @@ class Mission {
   [[nodiscard]] const std::vector<planners::RemainingTarget>& remaining() const;
   [[nodiscard]] map::OccupancyMap& map();
   [[nodiscard]] const RobotModel& robot() const;
+  /// The ground around a robot with legs; nullptr for others.
+  [[nodiscard]] std::shared_ptr<const terrain::TerrainView> terrain();
 
   /// Saves map.bt/.ot, trail, budget, bounds and zones into a folder (with `graph` if given); load
   /// takes them up again. The text of the Answer names path and reason.

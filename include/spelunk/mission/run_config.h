@@ -7,6 +7,7 @@
 #include "spelunk/common/robot_model.h"
 #include "spelunk/map/occupancy_map.h"
 #include "spelunk/mission/mission.h"
+#include "spelunk/terrain/terrain_map.h"
 
 namespace spelunk::mission {
 
@@ -30,6 +31,7 @@ struct RunConfig {
   RobotModel robot;
   map::MapParams map;
   MissionParams mission;
+  terrain::TerrainParams terrain;  ///< Used by robots with legs.
   std::string planner;
 };
 

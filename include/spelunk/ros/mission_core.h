@@ -20,8 +20,9 @@ namespace spelunk::bridge {
 /// The mission and what belongs to it; the threads of planner_node share it under one lock.
 struct MissionCore {
   MissionCore(const mission::MissionParams& params, const RobotModel& robot_model,
-              const map::MapParams& map_params, std::uint64_t seed, double time_limit_s)
-      : mission(params, robot_model, map_params, seed),
+              const map::MapParams& map_params, const terrain::TerrainParams& terrain,
+              std::uint64_t seed, double time_limit_s)
+      : mission(params, robot_model, map_params, seed, terrain),
         endurance(robot_model.endurance_s, time_limit_s) {}
 
   mission::Mission mission;

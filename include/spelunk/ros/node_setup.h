@@ -23,6 +23,7 @@ struct PlannerSetup {
   RobotModel robot;
   mission::MissionParams mission;
   map::MapParams map;
+  terrain::TerrainParams terrain;
   std::unique_ptr<planners::ExplorationPlanner> planner;
 };
 

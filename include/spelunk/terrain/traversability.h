@@ -59,6 +59,8 @@ enum class GroundClass : std::uint8_t {
   kDrop  ///< Not seen, but rays passed so low over it that no ground to walk on is there.
 };
 
+[[nodiscard]] const char* toText(GroundClass ground);  ///< "not seen", "too steep", ...
+
 /// What the ground around one cell is like.
 struct GroundShape {
   double slope_rad = 0.0;

@@ -93,6 +93,10 @@ struct GbPlanner::Search {
       planner.trail_known_until_s_ = stamped.time_s;
     }
     current = planner.global_.addPoint(root, view.localSpace());
+    if (planner.checked_zones_ != request.zones.size()) {
+      planner.global_.forgetChecksNear(root, std::numeric_limits<double>::infinity());
+      planner.checked_zones_ = request.zones.size();
+    }
     if (planner.checked_map_ != request.map) {
       planner.global_.forgetChecksNear(root, longestRange(planner.robot_));
       planner.checked_map_ = request.map;

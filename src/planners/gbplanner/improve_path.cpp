@@ -186,9 +186,10 @@ Polyline improvedPath(const Polyline& path, const FreeSpace& space, const map::L
     const Eigen::Vector3d centre =
         roomiestPoint(improved[i - 1], improved[i], window, limits.inflation_radius_m);
     for (const double share : {1.0, 0.5}) {
-      const Eigen::Vector3d moved = improved[i] + share * (centre - improved[i]);
-      if (!fits(improved, i, moved, space)) continue;
-      improved[i] = moved;
+      const auto moved =
+          space.placed(improved[i] + share * (centre - improved[i]), improved[i - 1]);
+      if (!moved || !fits(improved, i, *moved, space)) continue;
+      improved[i] = *moved;
       break;
     }
   }

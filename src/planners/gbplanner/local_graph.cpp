@@ -28,6 +28,9 @@ void count(Rejection rejection, PlanStats& stats) {
     case Rejection::kNoGo:
       ++stats.rejected_no_go;
       break;
+    case Rejection::kTooSteep:
+      ++stats.rejected_too_steep;
+      break;
   }
 }
 
@@ -51,6 +54,9 @@ struct Expansion {
     if (gap < params.edge_length_min_m) return;
     if (gap > params.edge_length_max_m)
       point = from + (point - from) * (params.edge_length_max_m / gap);
+    const auto placed = space.placed(point, from);
+    if (!placed) return count(Rejection::kTooSteep, stats);
+    point = *placed;
     const Rejection at_point = space.at(point);
     if (at_point != Rejection::kNone) return count(at_point, stats);
     if (!space.isFree(from, point)) {
@@ -72,8 +78,9 @@ struct Expansion {
     constexpr double kShortestStep_m = 0.3;
     if (!shortens_steps) return std::nullopt;
     for (Eigen::Vector3d step = 0.5 * (to - from); step.norm() >= kShortestStep_m; step *= 0.5) {
-      const Eigen::Vector3d point = from + step;
-      if (!space.isFree(from, point)) continue;
+      const auto placed = space.placed(from + step, from);
+      if (!placed || !space.isFree(from, *placed)) continue;
+      const Eigen::Vector3d point = *placed;
       const Eigen::Vector3d nearest = local.graph.position(*local.graph.findNearest(point));
       if ((point - nearest).norm() < kShortestStep_m) return std::nullopt;
       return point;

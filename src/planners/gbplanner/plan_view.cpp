@@ -50,15 +50,24 @@ PlanView::PlanView(const PlanRequest& request, const RobotModel& robot,
                                       *request.map, request.pose.position, oneVoxel(*request.map))),
       inflated_(window_, robot.box_m),
       checker_(std::make_unique<navigation::SegmentChecker>(request.map, robot.box_m)),
+      ground_rules_(terrain::GroundRules::of(robot, request.map->resolution())),
       local_space_([this](const Eigen::Vector3d& p,
                           const Eigen::Vector3d& q) { return inflated_.sweep(p, q); },
-                   robot.box_m, request.bounds, request.zones),
+                   robot.box_m, request.bounds, request.zones, groundIn(window_)),
       roomy_space_([this](const Eigen::Vector3d& p,
                           const Eigen::Vector3d& q) { return inflated_roomy_->sweep(p, q); },
                    robot.box_m, request.bounds, request.zones),
       global_space_([this](const Eigen::Vector3d& a,
                            const Eigen::Vector3d& b) { return checker_->sweep(a, b); },
-                    robot.box_m, request.bounds, request.zones) {}
+                    robot.box_m, request.bounds, request.zones, groundIn(*request.map)) {}
+
+template <class Map>
+std::optional<GroundUnder> PlanView::groundIn(const Map& map) const {
+  if (kindOf(robot_) != RobotKind::kLegged) return std::nullopt;
+  return GroundUnder{ground_rules_, [&map](const Eigen::Vector3d& point, double distance_m) {
+                       return terrain::groundBelow(map, point, distance_m);
+                     }};
+}
 
 void PlanView::prepareSearch(const map::FrozenMap& credible) {
   if (credible_) return;

@@ -51,6 +51,7 @@ class GbPlanner final : public ExplorationPlanner {
   std::optional<Proposal> proposal_;
   double trail_known_until_s_;
   std::shared_ptr<const map::FrozenMap> checked_map_;
+  std::size_t checked_zones_ = 0;
   GraphLayer local_layer_;
 };
 

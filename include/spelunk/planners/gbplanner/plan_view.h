@@ -39,6 +39,9 @@ class PlanView {
   [[nodiscard]] double gainAt(const Eigen::Vector3d& position, double yaw) const;
 
  private:
+  template <class Map>
+  [[nodiscard]] std::optional<GroundUnder> groundIn(const Map& map) const;
+
   const PlanRequest& request_;
   const RobotModel& robot_;
   const GbPlannerParams& params_;
@@ -49,6 +52,7 @@ class PlanView {
   map::InflatedWindow inflated_;
   std::optional<map::InflatedWindow> inflated_roomy_;
   std::unique_ptr<navigation::SegmentChecker> checker_;
+  terrain::GroundRules ground_rules_;
   FreeSpace local_space_;
   FreeSpace roomy_space_;
   FreeSpace global_space_;
