@@ -23,6 +23,7 @@ PlannerInputs::PlannerInputs(const ::ros::NodeHandle& node, const PlannerNodePar
       core_(core),
       endurance_s_(core.with([](MissionCore& c) { return c.mission.robot().endurance_s; })),
       pending_(cloud_params),
+      sensors_(core.with([](MissionCore& c) { return c.mission.robot(); }), params.silence_s),
       node_(node),
       tf_buffer_(::ros::Duration(30.0)),
       tf_listener_(tf_buffer_),
@@ -98,6 +99,14 @@ void PlannerInputs::onTimer() {
   holdingOnError(core_, "waiting clouds", [&] {
     forgetAfterClockJump();
     enterReadyClouds(::ros::Time::now());
+    sayWhichSensorsAreMissing();
+  });
+}
+
+void PlannerInputs::sayWhichSensorsAreMissing() {
+  core_.with([&](MissionCore& c) {
+    const double now_s = missionTime(c, ::ros::Time::now());
+    for (const std::string& text : sensors_.news(now_s)) c.watch.report(text, text, now_s);
   });
 }
 
@@ -126,6 +135,7 @@ void PlannerInputs::enter(const PendingClouds::Item& item) {
   core_.with([&](MissionCore& c) {
     for (const SensorModel& sensor : c.mission.robot().sensor_models)
       if (sensor.name == item.cloud->header.frame_id) scan.sensor = sensor.name;
+    sensors_.heard(item.cloud->header.frame_id, missionTime(c, ::ros::Time::now()));
     scan.stamp_s = c.clock.toMission(item.cloud->header.stamp);
     c.mission.onScan(scan);
   });

@@ -115,7 +115,8 @@ void PlannerNode::publishStatus() {
 MissionView PlannerNode::viewOf(MissionCore& core) const {
   MissionView view;
   view.status = core.mission.status();
-  view.robot = core.robot.value_or(RobotState());
+  view.box = core.robot.value_or(RobotState()).pose;
+  view.box.position.z() += core.mission.robot().box_lift_m;
   view.box_m = core.mission.robot().box_m;
   view.active_path = core.mission.activePath();
   view.kind = core.kind;
@@ -125,6 +126,7 @@ MissionView PlannerNode::viewOf(MissionCore& core) const {
   view.zones = core.mission.zones();
   view.remaining = core.mission.remaining();
   view.map = core.mission.map().freeze();
+  if (outputs_.wantsTerrain()) view.terrain = core.mission.terrain();
   return view;
 }
 
@@ -134,11 +136,12 @@ void PlannerNode::publishViews() {
       core_.with([&](MissionCore& core) {
         outputs_.publishOctomap(core.mission.map(), ::ros::Time::now());
       });
-    if (!outputs_.wantsMarkers() && !outputs_.wantsMapCloud()) return;
+    if (!outputs_.wantsMarkers() && !outputs_.wantsMapCloud() && !outputs_.wantsTerrain()) return;
     MissionView view = core_.with([&](MissionCore& core) { return viewOf(core); });
     view.graph = shown_graph_.with([](const auto& shown) { return shown; });
     outputs_.publishMarkers(view, ::ros::Time::now());
     outputs_.publishMapCloud(*view.map, ::ros::Time::now());
+    if (view.terrain) outputs_.publishTerrain(*view.terrain, ::ros::Time::now());
   });
 }
 

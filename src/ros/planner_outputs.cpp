@@ -7,6 +7,7 @@
 #include <visualization_msgs/MarkerArray.h>
 
 #include "spelunk/ros/convert.h"
+#include "spelunk/ros/convert_terrain.h"
 #include "spelunk/visualization/draw.h"
 
 namespace spelunk::bridge {
@@ -17,7 +18,7 @@ constexpr double kStatusTextAbove_m = 9.0;
 
 visualization::Scene sceneOf(const MissionView& view) {
   visualization::Scene scene;
-  const AxisAlignedBox around_robot = boxAround(view.robot.pose.position, {40.0, 40.0, 10.0});
+  const AxisAlignedBox around_robot = boxAround(view.box.position, {40.0, 40.0, 10.0});
   const AxisAlignedBox known = view.map ? view.map->knownBounds() : AxisAlignedBox();
   const bool map_is_known = known.min.allFinite() && known.max.allFinite() && !known.isEmpty();
   const AxisAlignedBox shown = map_is_known ? known : around_robot;
@@ -28,10 +29,10 @@ visualization::Scene sceneOf(const MissionView& view) {
   visualization::drawBounds(view.bounds, shown, scene);
   visualization::drawZones(view.zones, shown, scene);
   visualization::drawRemaining(view.remaining, scene);
-  visualization::drawRobot(view.robot.pose, view.box_m, scene);
-  visualization::drawStatus(
-      view.status, view.robot.pose.position + Eigen::Vector3d(0.0, 0.0, kStatusTextAbove_m),
-      kStatusTextHeight_m, scene);
+  visualization::drawRobot(view.box, view.box_m, scene);
+  visualization::drawStatus(view.status,
+                            view.box.position + Eigen::Vector3d(0.0, 0.0, kStatusTextAbove_m),
+                            kStatusTextHeight_m, scene);
   return scene;
 }
 
@@ -45,7 +46,9 @@ PlannerOutputs::PlannerOutputs(::ros::NodeHandle& node, const std::string& world
       status_(node.advertise<PlannerStatus>("status", 10)),
       graph_(node.advertise<Graph>("graph", 1)),
       markers_(node.advertise<visualization_msgs::MarkerArray>("markers", 1)),
-      map_cloud_(node.advertise<sensor_msgs::PointCloud2>("map_cloud", 1)) {
+      map_cloud_(node.advertise<sensor_msgs::PointCloud2>("map_cloud", 1)),
+      elevation_(node.advertise<sensor_msgs::PointCloud2>("elevation", 1)),
+      traversability_(node.advertise<nav_msgs::OccupancyGrid>("traversability", 1)) {
 #ifdef SPELUNK_HAVE_OCTOMAP_MSGS
   octomap_ = node.advertise<octomap_msgs::Octomap>("octomap", 1);
 #endif
@@ -85,6 +88,12 @@ void PlannerOutputs::publishMapCloud(const map::FrozenMap& map, const ::ros::Tim
       centres.push_back(map.centreOf(index).cast<float>());
     });
   map_cloud_.publish(bridge::toMsg(centres, frame_, now));
+}
+
+void PlannerOutputs::publishTerrain(const terrain::TerrainView& terrain, const ::ros::Time& now) {
+  if (elevation_.getNumSubscribers() > 0) elevation_.publish(elevationMsg(terrain, frame_, now));
+  if (traversability_.getNumSubscribers() > 0)
+    traversability_.publish(traversabilityMsg(terrain, frame_, now));
 }
 
 #ifdef SPELUNK_HAVE_OCTOMAP_MSGS

@@ -19,6 +19,7 @@
 #include "spelunk/ros/pacer.h"
 #include "spelunk/ros/params.h"
 #include "spelunk/ros/plan_worker.h"
+#include "spelunk/ros/sensor_watch.h"
 
 namespace spelunk::bridge {
 namespace {
@@ -143,6 +144,47 @@ TEST(InputWatch, RepeatsAProblemAtMostOnceInFiveSeconds) {
   InputWatch watch;
   for (int i = 0; i < 100; ++i) watch.report("odometry", "odometry holds NaN", 0.1 * i);
   EXPECT_EQ(log.lines().size(), 2U) << "ten seconds of it";
+}
+
+RobotModel robotWithCamera() {
+  RobotModel robot;
+  robot.sensor_models.resize(2);
+  robot.sensor_models[1].name = "depth_front";
+  robot.sensor_models[1].kind = "depth_camera";
+  return robot;
+}
+
+TEST(SensorWatch, SaysOnceThatACameraIsMissingAndOnceThatItIsBack) {
+  SensorWatch watch(robotWithCamera(), 3.0);
+  std::vector<std::string> said;
+  for (int i = 0; i < 200; ++i) {
+    const double now_s = 10.0 + 0.1 * i;
+    watch.heard("lidar_16", now_s);
+    if (i > 100) watch.heard("depth_front", now_s);
+    for (const std::string& text : watch.news(now_s)) {
+      said.push_back(text);
+      EXPECT_NEAR(now_s, said.size() == 1 ? 13.1 : 20.1, 0.11) << text;
+    }
+  }
+  ASSERT_EQ(said.size(), 2U);
+  EXPECT_NE(said[0].find("'depth_front'"), std::string::npos);
+  EXPECT_NE(said[0].find("near the robot is seen late"), std::string::npos);
+  EXPECT_NE(said[1].find("are back"), std::string::npos);
+}
+
+TEST(SensorWatch, FramesOfOtherNamesAreNotWatched) {
+  SensorWatch watch(robotWithCamera(), 3.0);
+  watch.heard("velodyne", 0.0);
+  watch.heard("velodyne", 20.0);
+  EXPECT_TRUE(watch.news(20.0).empty());
+}
+
+TEST(SensorWatch, SilenceOfAllIsLeftToTheTopic) {
+  SensorWatch watch(robotWithCamera(), 3.0);
+  watch.heard("depth_front", 0.0);
+  EXPECT_TRUE(watch.news(50.0).empty());
+  watch.heard("depth_front", 50.0);
+  EXPECT_EQ(watch.news(50.0).size(), 1U) << "and the lidar is still missing";
 }
 
 TEST(Pacer, WaitsForWallTimeByTheFactor) {

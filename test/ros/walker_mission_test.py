@@ -12,8 +12,8 @@ import rostest
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 from ros_support import Listener
 
-from nav_msgs.msg import Odometry
-from sensor_msgs.msg import JointState
+from nav_msgs.msg import OccupancyGrid, Odometry
+from sensor_msgs.msg import JointState, PointCloud2
 from spelunk.msg import PlannerStatus
 from std_msgs.msg import UInt32
 from std_srvs.srv import Trigger
@@ -28,6 +28,8 @@ class WalkerMission(unittest.TestCase):
         cls.status = Listener("status", PlannerStatus)
         cls.odometry = Listener("odometry", Odometry)
         cls.joints = Listener("joint_states", JointState)
+        cls.elevation = Listener("elevation", PointCloud2)
+        cls.traversability = Listener("traversability", OccupancyGrid)
         cls.falls = Listener("falls", UInt32)
         cls.collisions = Listener("collisions", UInt32)
         assert cls.odometry.wait(lambda _: True, 20.0), "no odometry"
@@ -50,6 +52,19 @@ class WalkerMission(unittest.TestCase):
         self.assertLess(math.hypot(last.x - first.x, last.y - first.y), 1.0)
         self.assertEqual(self.falls.latest().data, 0)
         self.assertEqual(self.collisions.latest().data, 0)
+
+    def test_shows_the_ground_it_walks_on(self):
+        cloud = self.elevation.latest()
+        self.assertEqual([field.name for field in cloud.fields],
+                         ["x", "y", "z", "rgb", "traversability", "variance_m2"])
+        self.assertGreater(cloud.width, 2000)
+        grid = self.traversability.latest()
+        self.assertEqual(len(grid.data), grid.info.width * grid.info.height)
+        walkable = sum(1 for cell in grid.data if 0 <= cell < 99)
+        self.assertGreater(walkable, 2000, "most of the room's floor")
+        self.assertIn(-1, grid.data, "what lies behind the walls")
+        robot = self.odometry.latest().pose.pose.position
+        self.assertLess(abs(grid.info.origin.position.z - (robot.z - 0.5)), 0.25)
 
     def test_moves_its_legs_while_it_walks(self):
         knees = [message.position[message.name.index("LF_KFE")] for message in self.joints.messages]

@@ -15,6 +15,7 @@
 #include "spelunk/ros/mission_core.h"
 #include "spelunk/ros/node_params.h"
 #include "spelunk/ros/pending_clouds.h"
+#include "spelunk/ros/sensor_watch.h"
 
 namespace spelunk::bridge {
 
@@ -34,6 +35,7 @@ class PlannerInputs {
   void onTimer();
 
   void forgetAfterClockJump();
+  void sayWhichSensorsAreMissing();
   void enterReadyClouds(const ::ros::Time& now);
   void enter(const PendingClouds::Item& item);
   [[nodiscard]] std::string stampProblem(const ::ros::Time& stamp, const ::ros::Time& now) const;
@@ -48,6 +50,7 @@ class PlannerInputs {
   GuardedCore& core_;
   double endurance_s_;
   PendingClouds pending_;
+  SensorWatch sensors_;
   std::uint64_t jumps_seen_ = 0;
   bool tf_was_there_ =
       false;  ///< Clouds older than the first transform are dropped without a word.

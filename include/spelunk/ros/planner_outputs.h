@@ -15,7 +15,7 @@ namespace spelunk::bridge {
 /// What the mission looks like at one instant, copied out of its lock.
 struct MissionView {
   mission::MissionStatus status;
-  RobotState robot;
+  Pose box;  ///< The centre of the robot's box.
   Eigen::Vector3d box_m = Eigen::Vector3d::Ones();
   Path active_path;
   planners::PathKind kind = planners::PathKind::kLocal;
@@ -26,6 +26,7 @@ struct MissionView {
   std::vector<planners::RemainingTarget> remaining;
   std::shared_ptr<const planners::PlannerGraph> graph;  ///< May be missing.
   std::shared_ptr<const map::FrozenMap> map;            ///< May be missing.
+  std::shared_ptr<const terrain::TerrainView> terrain;  ///< Robots with legs only.
 };
 
 /// Everything planner_node publishes. Nothing is built that nobody has subscribed to, the latched
@@ -42,11 +43,16 @@ class PlannerOutputs {
   void publishGraph(const planners::PlannerGraph& graph, const ::ros::Time& now);
   void publishMarkers(const MissionView& view, const ::ros::Time& now);
   void publishMapCloud(const map::FrozenMap& map, const ::ros::Time& now);
+  /// `elevation` and `traversability`.
+  void publishTerrain(const terrain::TerrainView& terrain, const ::ros::Time& now);
   void publishOctomap(map::OccupancyMap& map, const ::ros::Time& now);
 
   [[nodiscard]] bool wantsGraph() const { return graph_.getNumSubscribers() > 0; }
   [[nodiscard]] bool wantsMarkers() const { return markers_.getNumSubscribers() > 0; }
   [[nodiscard]] bool wantsMapCloud() const { return map_cloud_.getNumSubscribers() > 0; }
+  [[nodiscard]] bool wantsTerrain() const {
+    return elevation_.getNumSubscribers() > 0 || traversability_.getNumSubscribers() > 0;
+  }
   [[nodiscard]] bool wantsOctomap() const;  ///< Never, where octomap_msgs is not installed.
 
  private:
@@ -57,6 +63,8 @@ class PlannerOutputs {
   ::ros::Publisher graph_;
   ::ros::Publisher markers_;
   ::ros::Publisher map_cloud_;
+  ::ros::Publisher elevation_;
+  ::ros::Publisher traversability_;
   ::ros::Publisher octomap_;
   MarkerBuilder marker_builder_;
 };
