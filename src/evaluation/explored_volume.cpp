@@ -78,7 +78,7 @@ void ExploredVolume::walk(const Eigen::Vector3d& from, const Eigen::Vector3d& di
 }
 
 void ExploredVolume::add(const sim::SimulatedScan& scan) {
-  if (choice_ == RayChoice::kOneAnEnding && scans_++ % 2 == 1) return;
+  if (choice_ == RayChoice::kOneAnEnding && scans_[scan.scan.sensor]++ % 2 == 1) return;
   const Eigen::Matrix3d rotation = scan.T_world_sensor_true.linear();
   const Eigen::Vector3d origin = scan.T_world_sensor_true.translation();
   const Eigen::Vector3d from = seen_.scaled(origin);

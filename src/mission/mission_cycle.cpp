@@ -15,6 +15,7 @@ constexpr double kArrived_m = 0.4;
 constexpr double kArrivalGrace_s = 3.0;
 constexpr double kStopMargin_m = 0.6;
 constexpr double kRefreshPeriod_s = 0.5;
+constexpr double kLagMax_m = 2.0;
 
 std::string withNumber(const char* format, double value) {
   char text[160];
@@ -126,7 +127,10 @@ void Mission::Impl::checkInputs() {
 
 void Mission::Impl::checkDeviation() {
   if (!active) return;
-  const double gap = (input.latest()->pose.position - active->reference(now).pose.position).norm();
+  // A robot that walks may lag behind its trajectory, but not leave its line.
+  const double arc = active->arcAt(now);
+  const double lag = terrain ? kLagMax_m : 0.0;
+  const double gap = active->distanceTo(input.latest()->pose.position, arc - lag, arc);
   if (gap <= params.deviation_max_m) return;
   ++status.replans_deviation;
   hold(withNumber("the robot is %.2f m off its path: holding and planning anew", gap),

@@ -49,6 +49,20 @@ double PathExecution::arcAt(double time_s) const {
   return arc_m_[i] + std::min(along, rest);
 }
 
+double PathExecution::distanceTo(const Eigen::Vector3d& position, double from_m,
+                                 double to_m) const {
+  const Path part = line(from_m, to_m);
+  double least = (part.front().position - position).norm();
+  for (std::size_t i = 1; i < part.size(); ++i) {
+    const Eigen::Vector3d& a = part[i - 1].position;
+    const Eigen::Vector3d way = part[i].position - a;
+    const double along =
+        way.squaredNorm() > 0.0 ? (position - a).dot(way) / way.squaredNorm() : 0.0;
+    least = std::min(least, (a + std::clamp(along, 0.0, 1.0) * way - position).norm());
+  }
+  return least;
+}
+
 Path PathExecution::line(double from_m, double to_m) const { return slice(line_, from_m, to_m); }
 
 void PathExecution::noteOccupied(const std::vector<map::VoxelIndex>& voxels, double now_s) {

@@ -57,10 +57,11 @@ RunConfig loadRunConfig(const RunChoice& choice) {
   const std::string dir = choice.share_dir + "/config";
   addNamed(config.tree, dir + "/robots", "robot", choice.robot);
   const bool is_legged = config.tree.textOf("robot.kind", "aerial") == "legged";
-  for (const char* name : {"map", "mission", "sim", "terrain"})
+  for (const std::string& name : {std::string("map"), std::string("mission"), std::string("sim"),
+                                  std::string("terrain"), "planners/" + choice.planner}) {
     addIfPresent(config.tree, dir + "/" + name + ".yaml");
-  addIfPresent(config.tree, dir + "/planners/" + choice.planner + ".yaml");
-  if (is_legged) addIfPresent(config.tree, dir + "/planners/" + choice.planner + "_legged.yaml");
+    if (is_legged) addIfPresent(config.tree, dir + "/" + name + "_legged.yaml");
+  }
   for (const std::string& assignment : choice.assignments)
     config.tree.setAssignment(assignment, choice.assignments_origin);
   config.robot = loadRobot(config.tree, choice.robot, dir);
