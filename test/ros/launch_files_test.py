@@ -63,13 +63,15 @@ class LaunchFiles(unittest.TestCase):
             self.assertTrue(names, node)
 
     def test_rviz_listens_to_what_is_published(self):
-        path = os.path.join(self.package, "config", "rviz", "spelunk.rviz")
-        with open(path, encoding="utf-8") as file:
-            displays = yaml.safe_load(file)["Visualization Manager"]["Displays"]
-        topics = {display[key] for display in displays for key in ("Topic", "Marker Topic")
-                  if key in display}
-        self.assertTrue(topics)
-        self.assertTrue(topics <= PUBLISHED, topics - PUBLISHED)
+        paths = glob.glob(os.path.join(self.package, "config", "rviz", "*.rviz"))
+        self.assertGreaterEqual(len(paths), 2)
+        for path in paths:
+            with open(path, encoding="utf-8") as file:
+                displays = yaml.safe_load(file)["Visualization Manager"]["Displays"]
+            topics = {display[key] for display in displays for key in ("Topic", "Marker Topic")
+                      if key in display}
+            self.assertTrue(topics, path)
+            self.assertTrue(topics <= PUBLISHED, topics - PUBLISHED)
 
 
 if __name__ == "__main__":
