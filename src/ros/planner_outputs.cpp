@@ -13,8 +13,7 @@
 namespace spelunk::bridge {
 namespace {
 
-constexpr double kStatusTextHeight_m = 0.9;
-constexpr double kStatusTextAbove_m = 9.0;
+constexpr double kStatusTextAbove = 10.0;  ///< Its own heights above the robot.
 
 visualization::Scene sceneOf(const MissionView& view) {
   visualization::Scene scene;
@@ -30,9 +29,10 @@ visualization::Scene sceneOf(const MissionView& view) {
   visualization::drawZones(view.zones, shown, scene);
   visualization::drawRemaining(view.remaining, scene);
   visualization::drawRobot(view.box, view.box_m, scene);
-  visualization::drawStatus(view.status,
-                            view.box.position + Eigen::Vector3d(0.0, 0.0, kStatusTextAbove_m),
-                            kStatusTextHeight_m, scene);
+  visualization::drawStatus(
+      view.status,
+      view.box.position + Eigen::Vector3d(0.0, 0.0, kStatusTextAbove * view.text_height_m),
+      view.text_height_m, scene);
   return scene;
 }
 

@@ -15,7 +15,7 @@ constexpr Colour kDrop{0.0F, 0.0F, 0.0F, 1.0F};
 constexpr Colour kUnknown{0.50F, 0.50F, 0.50F, 1.0F};
 constexpr Colour kStanding{0.20F, 0.95F, 0.30F, 1.0F};
 constexpr Colour kSwinging{0.25F, 0.55F, 1.0F, 1.0F};
-constexpr double kFootMark_m = 0.08;
+constexpr double kFootMark_m = 0.1;
 
 Colour between(const Colour& from, const Colour& to, double share) {
   const auto t = static_cast<float>(std::clamp(share, 0.0, 1.0));

@@ -17,6 +17,7 @@ struct MissionView {
   mission::MissionStatus status;
   Pose box;  ///< The centre of the robot's box.
   Eigen::Vector3d box_m = Eigen::Vector3d::Ones();
+  double text_height_m = 0.9;  ///< Of the status.
   Path active_path;
   planners::PathKind kind = planners::PathKind::kLocal;
   Path way_home;
