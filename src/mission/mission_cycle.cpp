@@ -16,6 +16,8 @@ constexpr double kArrivalGrace_s = 3.0;
 constexpr double kStopMargin_m = 0.6;
 constexpr double kRefreshPeriod_s = 0.5;
 constexpr double kLagMax_m = 2.0;
+constexpr double kLagRetimed_m = 0.4;
+constexpr double kRetimePeriod_s = 2.0;
 
 std::string withNumber(const char* format, double value) {
   char text[160];
@@ -127,13 +129,37 @@ void Mission::Impl::checkInputs() {
 
 void Mission::Impl::checkDeviation() {
   if (!active) return;
-  // A robot that walks may lag behind its trajectory, but not leave its line.
-  const double arc = active->arcAt(now);
-  const double lag = terrain ? kLagMax_m : 0.0;
-  const double gap = active->distanceTo(input.latest()->pose.position, arc - lag, arc);
-  if (gap <= params.deviation_max_m) return;
+  const Eigen::Vector3d& position = input.latest()->pose.position;
+  const double behind = (position - active->reference(now).pose.position).norm();
+  if (terrain && behind > kLagRetimed_m && !backs_off) return checkLag();
+  if (behind <= params.deviation_max_m) return;
+  leavePath(behind);
+}
+
+/// A robot that walks may fall behind its trajectory but not leave its line: what is left of the
+/// line is timed anew from where it is.
+void Mission::Impl::checkLag() {
+  const double now_arc = active->arcAt(now);
+  const double arc = active->nearestArc(input.latest()->pose.position, now_arc - kLagMax_m,
+                                        now_arc + kLagRetimed_m);
+  const Path rest = active->line(arc, active->length());
+  const double gap = distance(rest.front(), input.latest()->pose);
+  if (gap > params.deviation_max_m) return leavePath(gap);
+  if (now < next_retime_s) return;
+  next_retime_s = now + kRetimePeriod_s;
+  const planners::PathKind kind = active->kind();
+  const Eigen::Vector3d box = active->box();
+  const std::string reason = status.reason;
+  active.reset();
+  running.reset();
+  pending.reset();
+  fly(rest, kind, box);
+  status.reason = reason;
+}
+
+void Mission::Impl::leavePath(double gap_m) {
   ++status.replans_deviation;
-  hold(withNumber("the robot is %.2f m off its path: holding and planning anew", gap),
+  hold(withNumber("the robot is %.2f m off its path: holding and planning anew", gap_m),
        planners::PathOutcome::kDeviated);
 }
 
@@ -154,7 +180,9 @@ void Mission::Impl::checkAhead() {
   const double gap = *active->blockedAt() - arc;
   if (gap > brakingDistance(robot, speed) + kStopMargin_m) return;
   const Path rest = active->line(arc, active->length());
-  const auto check = navigation::checkPath(*map.freeze(), rest, active->box(), no_go, {});
+  const auto check =
+      navigation::checkPath(*map.freeze(), rest, active->box(),
+                            active->kind() == planners::PathKind::kHome ? given_zones : no_go, {});
   if (check.isFree()) return active->clearBlock();
   active->setBlockedAt(arc + check.arc_m);
   if (check.arc_m > brakingDistance(robot, speed) + kStopMargin_m) return;

@@ -10,25 +10,43 @@ constexpr double kCheckPeriod_s = 0.25;
 constexpr double kLookAhead_m = 2.0;     // beyond the way to a standstill
 constexpr double kStopBefore_m = 0.6;    // bad ground, front of the footprint
 constexpr double kUnseenBefore_m = 0.2;  // ground that should have been seen by now
-constexpr double kSampling_s = 0.2;      // of the motion ahead
-constexpr double kBackOff_m = 0.5;       // Dang 2020, section 4.3
+constexpr double kStartRadius_m = 3.0;
+constexpr double kSampling_s = 0.2;  // of the motion ahead
+constexpr double kBackOff_m = 0.5;   // Dang 2020, section 4.3
 constexpr double kBackOffSpeedShare = 0.4;
 constexpr double kZoneMargin_m = 0.1;
 constexpr double kZoneRadiusMin_m = 0.25;
+constexpr double kZoneShrink_m = 0.05;
+constexpr double kWalkedOn_m = 0.4;   // beside the trail
+constexpr double kWallReach_m = 0.8;  // full extents of where a wall is looked for
+constexpr double kWallHeight_m = 0.5;
+constexpr double kStandsOn_m = 0.1;  // ground so near is under the robot already
+constexpr std::size_t kStandingTries = 10;
 constexpr double kZoneDepth_m = 1.0;  // below and above the place
 constexpr int kZoneCorners = 8;
 
-NoGoZone zoneAround(const terrain::PathGroundCheck& bad, int number) {
+NoGoZone zoneAround(const terrain::PathGroundCheck& bad, double radius_m, int number) {
   NoGoZone zone;
   zone.name = "ground " + std::to_string(number) + " (" + terrain::toText(bad.reason) + ")";
-  const double radius = std::max(bad.radius_m, kZoneRadiusMin_m) + kZoneMargin_m;
   for (int k = 0; k < kZoneCorners; ++k) {
     const double angle = 2.0 * M_PI * k / kZoneCorners;
     zone.polygon.push_back(bad.where.head<2>() +
-                           radius * Eigen::Vector2d(std::cos(angle), std::sin(angle)));
+                           radius_m * Eigen::Vector2d(std::cos(angle), std::sin(angle)));
   }
   zone.z_min = bad.where.z() - kZoneDepth_m;
   zone.z_max = bad.where.z() + kZoneDepth_m;
+  return zone;
+}
+
+/// The zone around bad ground, small enough to leave the robot outside.
+NoGoZone zoneBeside(const terrain::PathGroundCheck& bad, const Eigen::Vector3d& robot_at,
+                    const Eigen::Vector3d& box, int number) {
+  double radius = std::max(bad.radius_m, kZoneRadiusMin_m) + kZoneMargin_m;
+  NoGoZone zone = zoneAround(bad, radius, number);
+  while (radius > kZoneShrink_m && sweptBoxMeets(zone, robot_at, robot_at, box)) {
+    radius -= kZoneShrink_m;
+    zone = zoneAround(bad, radius, number);
+  }
   return zone;
 }
 
@@ -76,16 +94,50 @@ void Mission::Impl::checkGround() {
     return;
   next_ground_check_s = now + kCheckPeriod_s;
   const double stop_m = brakingDistance(robot, active->reference(now).velocity.norm());
-  const auto check = terrain->checkPath(motionAhead(stop_m + kLookAhead_m));
+  const auto check = groundAhead(stop_m + kLookAhead_m);
   const bool is_bad =
       check.status == terrain::PathGround::kUntraversable && check.arc_m < stop_m + kStopBefore_m;
-  const bool is_unseen =
-      check.status == terrain::PathGround::kUnknown && check.arc_m < stop_m + kUnseenBefore_m;
-  if (is_bad || is_unseen) avoid(check);
+  // Around the start, ground beside the robot has never been in any sensor's view.
+  const bool has_left_start = distance(input.latest()->pose, home_graph->home()) > kStartRadius_m;
+  const bool is_unseen = check.status == terrain::PathGround::kUnknown && has_left_start &&
+                         check.arc_m < stop_m + kUnseenBefore_m;
+  if ((is_bad || is_unseen) && !wasWalkedOn(check.where) && !isFootOfWall(check)) avoid(check);
+}
+
+/// The check of the motion ahead from the first pose on that stands on good ground: what is under
+/// the robot already bears it.
+terrain::PathGroundCheck Mission::Impl::groundAhead(double length_m) {
+  Path ahead = motionAhead(length_m);
+  terrain::PathGroundCheck check = terrain->checkPath(ahead);
+  for (std::size_t k = 0; k < kStandingTries && ahead.size() > 1; ++k) {
+    if (check.status == terrain::PathGround::kTraversable || check.arc_m > kStandsOn_m) break;
+    ahead.erase(ahead.begin());
+    check = terrain->checkPath(ahead);
+  }
+  return check;
+}
+
+bool Mission::Impl::wasWalkedOn(const Eigen::Vector3d& place) const {
+  const Path& trail = home_graph->trail();
+  return std::any_of(trail.begin(), trail.end(), [&](const Pose& pose) {
+    const Eigen::Vector3d gap = pose.position - place;
+    return gap.head<2>().norm() < kWalkedOn_m && std::fabs(gap.z()) < kZoneDepth_m;
+  });
+}
+
+/// Rough ground at a wall is the wall: what reaches up to the robot's box is avoided by its box.
+bool Mission::Impl::isFootOfWall(const terrain::PathGroundCheck& bad) {
+  if (bad.reason != terrain::GroundClass::kTooRough) return false;
+  const Eigen::Vector3d beside = bad.where + Eigen::Vector3d(0.0, 0.0, robot.box_lift_m);
+  bool has_wall = false;
+  map.freeze()->forEachOccupied(boxAround(beside, {kWallReach_m, kWallReach_m, kWallHeight_m}),
+                                [&](const map::VoxelIndex&) { has_wall = true; });
+  return has_wall;
 }
 
 void Mission::Impl::avoid(const terrain::PathGroundCheck& bad) {
-  NoGoZone zone = zoneAround(bad, ++status.zones_marked);
+  NoGoZone zone =
+      zoneBeside(bad, input.latest()->pose.position, robot.box_m, ++status.zones_marked);
   hold("untraversable ground ahead (" + std::string(terrain::toText(bad.reason)) +
            "): stopped, marked as " + zone.name + ", going back",
        planners::PathOutcome::kBlocked);

@@ -98,6 +98,10 @@ bool Mission::Impl::isWayClear(const Path& path, const Eigen::Vector3d& box) {
   return navigation::checkPath(*map.freeze(), path, box, no_go, {}).isFree();
 }
 
+bool Mission::Impl::isTrailClear(const Path& path, const Eigen::Vector3d& box) {
+  return navigation::checkPath(*map.freeze(), path, box, given_zones, {}).isFree();
+}
+
 void Mission::Impl::goHome(const std::string& why) {
   goal = Goal::kHome;
   pending.reset();
@@ -144,11 +148,12 @@ void Mission::Impl::launchHome() {
   const auto by_route = wayByRoute();
   const Eigen::Vector3d tight = HomeGraph::tightBox(robot.box_m);
   if (by_route && isWayClear(by_route->path, robot.box_m) &&
-      (!by_trail || by_route->travel_s < by_trail->travel_s || !isWayClear(by_trail->path, tight)))
+      (!by_trail || by_route->travel_s < by_trail->travel_s ||
+       !isTrailClear(by_trail->path, tight)))
     return fly(by_route->path, planners::PathKind::kHome, robot.box_m);
-  if (by_trail && isWayClear(by_trail->path, robot.box_m))
+  if (by_trail && isTrailClear(by_trail->path, robot.box_m))
     return fly(fromMotion(*by_trail), planners::PathKind::kHome, robot.box_m);
-  if (by_trail && isWayClear(by_trail->path, tight))
+  if (by_trail && isTrailClear(by_trail->path, tight))
     return fly(fromMotion(*by_trail), planners::PathKind::kHome, tight);
   wants_way_home = true;
   hold("the way home is blocked: holding and looking for another", planners::PathOutcome::kBlocked);

@@ -83,6 +83,8 @@ struct Mission::Impl {
   [[nodiscard]] bool isFlying() const;
   void checkInputs();
   void checkDeviation();
+  void checkLag();
+  void leavePath(double gap_m);
   void checkArrival();
   void checkAhead();
   void checkEndurance();
@@ -95,6 +97,9 @@ struct Mission::Impl {
   // --- The ground under a robot with legs (mission_ground.cpp).
   void noteGround(const Scan& scan);
   void checkGround();
+  [[nodiscard]] terrain::PathGroundCheck groundAhead(double length_m);
+  [[nodiscard]] bool wasWalkedOn(const Eigen::Vector3d& place) const;
+  [[nodiscard]] bool isFootOfWall(const terrain::PathGroundCheck& bad);
   void avoid(const terrain::PathGroundCheck& bad);
   void stepBackOff();
   [[nodiscard]] Path motionAhead(double length_m) const;
@@ -131,6 +136,8 @@ struct Mission::Impl {
   void launchHome();
   [[nodiscard]] Path fromMotion(const WayHome& way) const;
   [[nodiscard]] bool isWayClear(const Path& path, const Eigen::Vector3d& box);
+  /// The same for the robot's own trail, where marked ground has been walked on.
+  [[nodiscard]] bool isTrailClear(const Path& path, const Eigen::Vector3d& box);
   [[nodiscard]] bool isAtHome() const;
 
   // --- Parts.
@@ -161,10 +168,12 @@ struct Mission::Impl {
   double hold_since_s = 0.0;
   int scans = 0;
   AxisAlignedBox limits;
-  std::vector<NoGoZone> no_go;
+  std::vector<NoGoZone> no_go;        ///< All of them.
+  std::vector<NoGoZone> given_zones;  ///< Those that people set; the rest was marked on the way.
   std::shared_ptr<const map::FrozenMap> frozen;
   Eigen::Isometry3d T_world_base = Eigen::Isometry3d::Identity();  ///< Newest, of the base itself.
   double next_ground_check_s = 0.0;
+  double next_retime_s = 0.0;
   bool backs_off = false;
 
   // --- Plans.

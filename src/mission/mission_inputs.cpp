@@ -152,7 +152,7 @@ Answer Mission::Impl::emergencyStop() {
 
 void Mission::Impl::takeUp(const MissionRecord& record) {
   limits = record.bounds;
-  no_go = record.zones;
+  no_go = given_zones = record.zones;
   if (record.trail.empty()) return;
   home_graph.emplace(record.trail.front(), robot.box_m, map.params().resolution_m, footingCheck());
   for (const Pose& pose : record.trail) home_graph->addTrail(pose);
@@ -178,8 +178,12 @@ Answer Mission::Impl::setZones(std::vector<NoGoZone> list) {
                                         input.latest()->pose.position, robot.box_m))
       return {false, "no-go zone '" + zone.name + "' holds the robot: move it out first"};
   }
-  no_go = std::move(list);
-  return {true, std::to_string(no_go.size()) + " no-go zone(s) set"};
+  const std::vector<NoGoZone> marked(no_go.begin() + static_cast<long>(given_zones.size()),
+                                     no_go.end());
+  given_zones = std::move(list);
+  no_go = given_zones;
+  no_go.insert(no_go.end(), marked.begin(), marked.end());
+  return {true, std::to_string(given_zones.size()) + " no-go zone(s) set"};
 }
 
 }  // namespace spelunk::mission

@@ -49,18 +49,22 @@ double PathExecution::arcAt(double time_s) const {
   return arc_m_[i] + std::min(along, rest);
 }
 
-double PathExecution::distanceTo(const Eigen::Vector3d& position, double from_m,
+double PathExecution::nearestArc(const Eigen::Vector3d& position, double from_m,
                                  double to_m) const {
-  const Path part = line(from_m, to_m);
-  double least = (part.front().position - position).norm();
-  for (std::size_t i = 1; i < part.size(); ++i) {
-    const Eigen::Vector3d& a = part[i - 1].position;
-    const Eigen::Vector3d way = part[i].position - a;
-    const double along =
-        way.squaredNorm() > 0.0 ? (position - a).dot(way) / way.squaredNorm() : 0.0;
-    least = std::min(least, (a + std::clamp(along, 0.0, 1.0) * way - position).norm());
+  double best_arc = std::clamp(from_m, 0.0, length());
+  double least = (poseAt(line_, best_arc).position - position).norm();
+  for (std::size_t i = 1; i < line_.size(); ++i) {
+    const double step = arc_m_[i] - arc_m_[i - 1];
+    if (arc_m_[i] < from_m || arc_m_[i - 1] > to_m || step <= 0.0) continue;
+    const Eigen::Vector3d& a = line_[i - 1].position;
+    const Eigen::Vector3d way = line_[i].position - a;
+    const double share = std::clamp((position - a).dot(way) / way.squaredNorm(), 0.0, 1.0);
+    const double gap = (a + share * way - position).norm();
+    if (gap >= least) continue;
+    least = gap;
+    best_arc = arc_m_[i - 1] + share * step;
   }
-  return least;
+  return best_arc;
 }
 
 Path PathExecution::line(double from_m, double to_m) const { return slice(line_, from_m, to_m); }

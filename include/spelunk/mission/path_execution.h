@@ -30,8 +30,8 @@ class PathExecution {
 
   [[nodiscard]] TrajectoryPoint reference(double time_s) const;
   [[nodiscard]] double arcAt(double time_s) const;
-  /// How far a position is from the part of the line between two arc lengths.
-  [[nodiscard]] double distanceTo(const Eigen::Vector3d& position, double from_m,
+  /// Arc length of the place between two arc lengths, about, that is nearest to a position.
+  [[nodiscard]] double nearestArc(const Eigen::Vector3d& position, double from_m,
                                   double to_m) const;
   /// The timed line between two arc lengths.
   [[nodiscard]] Path line(double from_m, double to_m) const;

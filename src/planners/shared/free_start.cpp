@@ -32,12 +32,12 @@ StartCheck checkStart(const PlanRequest& request, const FreeSpace& space) {
   if (here == Rejection::kNone) return {position, PlanStatus::kOk, ""};
   if (here == Rejection::kOutOfBounds)
     return {std::nullopt, PlanStatus::kOutOfBounds, "the start lies outside the bounds"};
-  if (here == Rejection::kNoGo)
-    return {std::nullopt, PlanStatus::kOutOfBounds, "the start lies inside a no-go zone"};
   for (const Eigen::Vector3d& offset : offsetsByDistance()) {
     if (space.at(position + offset) == Rejection::kNone)
       return {position + offset, PlanStatus::kOk, ""};
   }
+  if (here == Rejection::kNoGo)
+    return {std::nullopt, PlanStatus::kOutOfBounds, "the start lies inside a no-go zone"};
   const char* reason =
       here == Rejection::kOccupied
           ? "the robot's box at the start touches an obstacle, and no place within "

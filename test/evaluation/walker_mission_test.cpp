@@ -1,0 +1,88 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "spelunk/common/log.h"
+#include "spelunk/evaluation/mission_run.h"
+#include "spelunk/mission/run_config.h"
+#include "spelunk/planners/factory.h"
+#include "support/pit_room.h"
+
+namespace spelunk::evaluation {
+namespace {
+
+enum class Ground { kVerified, kTakenOnTrust };
+
+struct Walk {
+  RunRecord record;
+  std::vector<NoGoZone> zones;
+};
+
+/// The shipped walker, short-sighted so that it has to walk the room.
+Walk walkPitRoom(Ground ground, std::uint64_t seed) {
+  setLogSink([](LogLevel, const std::string&) {});
+  mission::RunChoice choice;
+  choice.share_dir = SPELUNK_SOURCE_DIR;
+  choice.robot = "walker";
+  choice.assignments = {"sensor.lidar_16.range_max_m=6", "sensor.lidar_16.gain_range_m=6",
+                        "sensor.lidar_16.columns=450",   "map.range_max_m=6",
+                        "sensor.depth_front.rows=120",   "sensor.depth_front.columns=160",
+                        "sensor.depth_rear.rows=120",    "sensor.depth_rear.columns=160"};
+  mission::RunConfig config = mission::loadRunConfig(choice);
+  RunSetup setup;
+  setup.robot = config.robot;
+  setup.sim = sim::readSimParams(config.tree);
+  setup.map = config.map;
+  setup.mission = config.mission;
+  setup.mission.verify_ground = ground == Ground::kVerified;
+  setup.terrain = config.terrain;
+  setup.start = {{-2.0, 0.0, 0.6}, 0.0};
+  setup.seed = seed;
+  setup.time_limit_s = 300.0;
+  const auto planner =
+      planners::makePlanner("gbplanner", config.tree, setup.robot, setup.map.resolution_m);
+  const sim::WorldMesh mesh = test::pitRoom();
+  MissionRun run(setup, mesh, *planner);
+  Walk walk;
+  walk.record = run.fly();
+  walk.zones = run.mission().zones();
+  return walk;
+}
+
+bool isOverPitOrBlock(const Eigen::Vector2d& p) {
+  constexpr double kSlack = 0.5;  // a zone may reach a little beyond what it marks
+  const bool pit = p.x() > 4.0 - kSlack && p.x() < 5.2 + kSlack && std::abs(p.y()) < 1.3 + kSlack;
+  const bool block = p.x() > 9.0 - kSlack && p.x() < 9.8 + kSlack && std::abs(p.y()) < 1.4 + kSlack;
+  return pit || block;
+}
+
+Eigen::Vector2d centreOf(const NoGoZone& zone) {
+  Eigen::Vector2d sum = Eigen::Vector2d::Zero();
+  for (const Eigen::Vector2d& corner : zone.polygon) sum += corner;
+  return sum / static_cast<double>(zone.polygon.size());
+}
+
+TEST(WalkerMission, PassesAPitAndABlockAndComesHome) {
+  const Walk walk = walkPitRoom(Ground::kVerified, 1);
+  EXPECT_EQ(walk.record.falls, 0) << walk.record.outcome;
+  EXPECT_TRUE(walk.record.returned_home) << walk.record.outcome;
+  EXPECT_GT(walk.record.remaining_at_home_s, 0.0);
+  EXPECT_GT(walk.record.explored_volume_m3, 380.0) << walk.record.outcome;  // of 420 m3 of air
+  double farthest = 0.0;
+  for (const TimelineRow& row : walk.record.timeline)
+    farthest = std::max(farthest, row.pose.position.x());
+  EXPECT_GT(farthest, 6.0);  // beyond the pit
+  for (const NoGoZone& zone : walk.zones)
+    EXPECT_TRUE(isOverPitOrBlock(centreOf(zone)))
+        << zone.name << " at " << centreOf(zone).transpose();
+}
+
+TEST(WalkerMission, FallsWhereTheGroundIsTakenOnTrust) {
+  const Walk walk = walkPitRoom(Ground::kTakenOnTrust, 1);
+  EXPECT_EQ(walk.record.falls, 1) << walk.record.outcome;
+  EXPECT_FALSE(walk.record.returned_home);
+}
+
+}  // namespace
+}  // namespace spelunk::evaluation
