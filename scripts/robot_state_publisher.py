@@ -29,9 +29,12 @@ def main():
               "are missing on tf and in RViz; all else works", file=sys.stderr)
         return 0
     master = rosgraph.Master("/" + PROGRAM)
-    while not master.hasParam(rosgraph.names.ns_join(rosgraph.names.get_ros_namespace(),
-                                                     "robot_description")):
-        time.sleep(POLL_S)
+    parameter = rosgraph.names.ns_join(rosgraph.names.get_ros_namespace(), "robot_description")
+    try:
+        while not master.hasParam(parameter):
+            time.sleep(POLL_S)
+    except KeyboardInterrupt:
+        return 0
     os.execv(program, [program] + sys.argv[1:])
 
 
