@@ -9,7 +9,7 @@ namespace spelunk::bridge {
 namespace {
 
 constexpr double kStatusPeriod_s = 1.0;
-constexpr double kWalkerText_m = 0.2;  ///< Walkers are looked at from near.
+constexpr double kWalkerMarks = 0.25;  ///< Walkers are looked at from near.
 
 }  // namespace
 
@@ -119,7 +119,7 @@ MissionView PlannerNode::viewOf(MissionCore& core) const {
   view.box = core.robot.value_or(RobotState()).pose;
   view.box.position.z() += core.mission.robot().box_lift_m;
   view.box_m = core.mission.robot().box_m;
-  if (kindOf(core.mission.robot()) == RobotKind::kLegged) view.text_height_m = kWalkerText_m;
+  if (kindOf(core.mission.robot()) == RobotKind::kLegged) view.mark_scale = kWalkerMarks;
   view.active_path = core.mission.activePath();
   view.kind = core.kind;
   view.way_home = core.mission.wayHome();

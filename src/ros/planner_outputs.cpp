@@ -13,7 +13,8 @@
 namespace spelunk::bridge {
 namespace {
 
-constexpr double kStatusTextAbove = 10.0;  ///< Its own heights above the robot.
+constexpr double kStatusTextHeight_m = 0.9;
+constexpr double kStatusTextAbove_m = 9.0;
 
 visualization::Scene sceneOf(const MissionView& view) {
   visualization::Scene scene;
@@ -31,9 +32,9 @@ visualization::Scene sceneOf(const MissionView& view) {
   visualization::drawRobot(view.box, view.box_m, scene);
   visualization::drawStatus(
       view.status,
-      view.box.position + Eigen::Vector3d(0.0, 0.0, kStatusTextAbove * view.text_height_m),
-      view.text_height_m, scene);
-  return scene;
+      view.box.position + Eigen::Vector3d(0.0, 0.0, kStatusTextAbove_m * view.mark_scale),
+      kStatusTextHeight_m, scene);
+  return visualization::withMarksScaled(scene, view.mark_scale);
 }
 
 }  // namespace

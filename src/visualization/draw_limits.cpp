@@ -34,18 +34,6 @@ void addLine(const Eigen::Vector3d& from, const Eigen::Vector3d& to, Element& li
 constexpr Colour kBoundsColour{0.4F, 0.9F, 0.9F, 0.6F};
 constexpr Colour kZoneColour{1.0F, 0.15F, 0.15F, 0.9F};
 
-constexpr double kNameShare = 0.25;  ///< Height of letters in a zone's reach.
-constexpr double kNameMin_m = 0.15;
-constexpr double kNameMax_m = 0.8;
-
-/// From the first corner to the farthest one.
-double reachOf(const std::vector<Eigen::Vector2d>& polygon) {
-  double reach = 0.0;
-  for (const Eigen::Vector2d& corner : polygon)
-    reach = std::max(reach, (corner - polygon.front()).norm());
-  return reach;
-}
-
 }  // namespace
 
 void drawBounds(const AxisAlignedBox& bounds, const AxisAlignedBox& shown, Scene& scene) {
@@ -84,8 +72,8 @@ void drawZones(const std::vector<NoGoZone>& zones, const AxisAlignedBox& shown, 
     scene.add(std::move(lines));
     name.shape = Shape::kText;
     name.text = zone.name;
-    name.size_m = std::clamp(kNameShare * reachOf(zone.polygon), kNameMin_m, kNameMax_m);
-    name.points = {{middle.x(), middle.y(), high + 0.6 * name.size_m}};
+    name.size_m = 0.8;
+    name.points = {{middle.x(), middle.y(), high + 0.5}};
     if (!zone.name.empty() && corners > 0) scene.add(std::move(name));
   }
 }

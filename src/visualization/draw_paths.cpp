@@ -56,7 +56,7 @@ void drawRobot(const Pose& pose, const Eigen::Vector3d& box_m, Scene& scene) {
   body.layer = "robot";
   body.shape = Shape::kBox;
   body.points = {pose.position};
-  body.extents_m = box_m;  // The planner's box does not turn with the robot.
+  body.extents_m = box_m;                       // The planner's box does not turn with the robot.
   body.colours = {{1.0F, 0.85F, 0.2F, 0.25F}};  // The robot's model shows through.
   scene.add(std::move(body));
 

@@ -33,7 +33,7 @@ std::string format(const char* pattern, Values... values) {
 std::string statusText(const mission::MissionStatus& status) {
   std::string text =
       std::string(mission::toText(status.state)) + format("   %.0f s\n", status.time_s) +
-      format("explored %.0f m3, flown %.0f m\n", status.known_volume_m3, status.distance_m) +
+      format("explored %.0f m3, travelled %.0f m\n", status.known_volume_m3, status.distance_m) +
       format("endurance %.0f s, home %.0f s, margin %.0f s", status.remaining_s, status.way_home_s,
              status.margin_s);
   const std::string& why = status.end_reason.empty() ? status.reason : status.end_reason;

@@ -13,7 +13,7 @@ constexpr Colour kWorst{0.95F, 0.90F, 0.15F, 1.0F};
 constexpr Colour kUntraversable{0.90F, 0.10F, 0.10F, 1.0F};
 constexpr Colour kDrop{0.0F, 0.0F, 0.0F, 1.0F};
 constexpr Colour kUnknown{0.50F, 0.50F, 0.50F, 1.0F};
-constexpr Colour kStanding{0.20F, 0.95F, 0.30F, 1.0F};
+constexpr Colour kStanding{1.0F, 1.0F, 1.0F, 1.0F};
 constexpr Colour kSwinging{0.25F, 0.55F, 1.0F, 1.0F};
 constexpr double kFootMark_m = 0.1;
 

@@ -33,4 +33,14 @@ std::vector<const Element*> Scene::layer(const std::string& name) const {
   return found;
 }
 
+Scene withMarksScaled(const Scene& scene, double factor) {
+  require(factor > 0.0, "withMarksScaled: factor must be positive");
+  Scene scaled;
+  for (Element element : scene.elements()) {
+    element.size_m *= factor;
+    scaled.add(std::move(element));
+  }
+  return scaled;
+}
+
 }  // namespace spelunk::visualization

@@ -82,8 +82,8 @@ TEST(DrawFeet, ContactIsSeenAndBrokenPositionsAreLeftOut) {
   ASSERT_EQ(feet.size(), 1U);
   ASSERT_EQ(feet[0]->points.size(), 2U);
   EXPECT_EQ(feet[0]->points[1].y(), -2.0);
-  EXPECT_GT(feet[0]->colours[0].g, feet[0]->colours[0].b) << "stands";
-  EXPECT_GT(feet[0]->colours[1].b, feet[0]->colours[1].g) << "in the air";
+  EXPECT_EQ(feet[0]->colours[0].r, feet[0]->colours[0].b) << "stands";
+  EXPECT_GT(feet[0]->colours[1].b, feet[0]->colours[1].r) << "in the air";
 }
 
 }  // namespace

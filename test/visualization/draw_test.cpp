@@ -105,18 +105,6 @@ TEST(DrawZones, DrawsPrismWithItsName) {
   EXPECT_EQ(elements[1]->text, "shaft");
 }
 
-TEST(DrawZones, NamesAreAsLargeAsTheirZonesAllow) {
-  const auto size = [](double side) {
-    Scene scene;
-    drawZones({{"zone", {{0, 0}, {side, 0}, {side, side}, {0, side}}, 0.0, 1.0}},
-              {{-5, -5, -2}, {5, 5, 9}}, scene);
-    return scene.layer("no_go_zones").at(1)->size_m;
-  };
-  EXPECT_LT(size(0.7), size(1.4));
-  EXPECT_EQ(size(0.01), size(0.1)) << "still to be read";
-  EXPECT_EQ(size(50.0), size(500.0));
-}
-
 TEST(DrawRobot, BoxHasTheRobotsSizeAndHeadingPointsAhead) {
   Scene scene;
   drawRobot({{1, 2, 3}, M_PI / 2}, {1.0, 1.0, 0.4}, scene);

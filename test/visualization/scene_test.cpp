@@ -61,6 +61,20 @@ TEST(Scene, RefusesColoursThatDoNotFitThePoints) {
   EXPECT_THROW(scene.add(line), Precondition);
 }
 
+TEST(Scene, MarksScaleAndBoxesDoNot) {
+  Scene scene;
+  scene.add(strip({{0, 0, 0}, {4, 0, 0}}));
+  Element box = strip({{1, 2, 3}});
+  box.shape = Shape::kBox;
+  scene.add(box);
+  const Scene scaled = withMarksScaled(scene, 0.25);
+  ASSERT_EQ(scaled.elements().size(), 2U);
+  EXPECT_EQ(scaled.elements()[0].size_m, 0.25 * scene.elements()[0].size_m);
+  EXPECT_EQ(scaled.elements()[0].points[1].x(), 4.0) << "things stay where they are";
+  EXPECT_EQ(scaled.elements()[1].extents_m, box.extents_m);
+  EXPECT_THROW((void)withMarksScaled(scene, 0.0), Precondition);
+}
+
 TEST(HeatColour, GoesFromBlueOverGreenToRed) {
   EXPECT_GT(heatColour(0.0).b, 0.9F);
   EXPECT_LT(heatColour(0.0).r, 0.1F);

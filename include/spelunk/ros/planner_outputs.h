@@ -17,7 +17,7 @@ struct MissionView {
   mission::MissionStatus status;
   Pose box;  ///< The centre of the robot's box.
   Eigen::Vector3d box_m = Eigen::Vector3d::Ones();
-  double text_height_m = 0.9;  ///< Of the status.
+  double mark_scale = 1.0;  ///< Size of lines, points and letters.
   Path active_path;
   planners::PathKind kind = planners::PathKind::kLocal;
   Path way_home;

@@ -12,7 +12,7 @@
 namespace spelunk::bridge {
 
 /// What sim_node publishes of a walking robot only: `joint_states` (sensor_msgs/JointState), `feet`
-/// (visualization_msgs/MarkerArray, standing feet green) and `falls` and `slips` (std_msgs/UInt32,
+/// (visualization_msgs/MarkerArray, standing feet white) and `falls` and `slips` (std_msgs/UInt32,
 /// how many so far, latched).
 class WalkerOutputs {
  public:

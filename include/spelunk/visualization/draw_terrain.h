@@ -22,7 +22,7 @@ struct FootMark {
   bool is_standing = false;
 };
 
-/// Feet that stand are green, feet in the air blue (layer "feet").
+/// Feet that stand are white, feet in the air blue (layer "feet").
 void drawFeet(const std::vector<FootMark>& feet, Scene& scene);
 
 }  // namespace spelunk::visualization

@@ -56,6 +56,10 @@ class Scene {
   std::vector<Element> elements_;
 };
 
+/// The same scene with lines, points and letters `factor` times as large, for viewers that are
+/// nearer or farther away; boxes keep their size. Throws Precondition unless `factor` is positive.
+[[nodiscard]] Scene withMarksScaled(const Scene& scene, double factor);
+
 /// Writes points and lines as a coloured PLY (ASCII; vertices and edges; texts are left out).
 /// Throws OutsideError with the path if it cannot be written.
 void savePly(const Scene& scene, const std::string& path);
