@@ -135,6 +135,27 @@ TEST(VolumetricGain, EmptyMapIsAllUnknownToTheRange) {
   EXPECT_GT(distinct.unknown_voxels, per_ray.unknown_voxels / 2);
 }
 
+TEST(VolumetricGain, ConesHoldTheVolumeOfTheFieldOfView) {
+  OccupancyMap empty{MapParams{}};
+  const LocalWindow window(*empty.freeze(), cube(12.0));
+  const auto coneGain = [](const LocalWindow& in, double degrees) {
+    SensorModel sensor = sensorOf(360, 30, 10);
+    sensor.gain_resolution_deg = degrees;
+    return GainEvaluator({sensor}, 0.2, GainCounting::kCone)
+        .evaluate(in, {0.1, 0.1, 0.1}, 0.0, AxisAlignedBox{})
+        .unknown_m3;
+  };
+  for (const double degrees : {5.0, 2.5}) {
+    const double half = (15.0 + 0.5 * degrees) * M_PI / 180.0;  // a row sees half a row beyond it
+    const double field = 2.0 * M_PI * 2.0 * std::sin(half) * 1000.0 / 3.0;
+    EXPECT_NEAR(coneGain(window, degrees), field, 0.01 * field) << degrees;
+  }
+  OccupancyMap half{MapParams{}};
+  half.markFree({{-12.0, -12.0, -4.0}, {0.1, 12.0, 4.0}});
+  const LocalWindow half_known(*half.freeze(), cube(12.0));
+  EXPECT_NEAR(coneGain(half_known, 5.0), 0.5 * coneGain(window, 5.0), 0.03 * coneGain(window, 5.0));
+}
+
 TEST(VolumetricGain, CameraSeesOnlyWhereItLooks) {
   OccupancyMap map{MapParams{}};
   map.markFree({{-9.0, -9.0, -3.0}, {0.0, 9.0, 3.0}});  // the half space behind is known

@@ -93,5 +93,36 @@ TEST(HomeGraph, CheckedRouteOfThePlannerIsUsedWhenShorter) {
   EXPECT_NEAR(lengthOf(*way), 14.0, 1.0);
 }
 
+TEST(HomeGraph, ZoneCutsShortcutsForGoodButNotTheTrail) {
+  const test::GridWorld world = hall();
+  const auto map = mapOf(world).freeze();
+  HomeGraph graph = outAndBack();
+  graph.connect(*map);
+  const Pose end{{5.0, 4.5, 2.5}, 0.0};
+  ASSERT_LT(lengthOf(*graph.wayFrom(end)), 10.0);  // across
+  NoGoZone zone;
+  zone.polygon = {{2.0, 3.2}, {28.0, 3.2}, {28.0, 3.8}, {2.0, 3.8}};
+  graph.noteZone(zone);
+  for (int k = 0; k < 10; ++k) graph.connect(*map);
+  graph.recheckAll(*map);
+  EXPECT_NEAR(lengthOf(*graph.wayFrom(end)), 44.0, 1.5);  // the way it came
+}
+
+TEST(HomeGraph, TakesNoShortcutWithoutFooting) {
+  const test::GridWorld world = hall();
+  const auto map = mapOf(world).freeze();
+  int asked = 0;
+  HomeGraph graph({{3.0, 2.5, 2.5}, 0.0}, kBox, kResolution_m,
+                  [&](const map::FrozenMap&, const Eigen::Vector3d&, const Eigen::Vector3d&) {
+                    ++asked;
+                    return false;
+                  });
+  for (double x = 3.0; x <= 25.0; x += 0.25) graph.addTrail({{x, 2.5, 2.5}, 0.0});
+  for (double x = 25.0; x >= 5.0; x -= 0.25) graph.addTrail({{x, 4.5, 2.5}, 0.0});
+  graph.connect(*map);
+  EXPECT_GT(asked, 10);
+  EXPECT_NEAR(lengthOf(*graph.wayFrom({{5.0, 4.5, 2.5}, 0.0})), 44.0, 1.5);
+}
+
 }  // namespace
 }  // namespace spelunk::mission

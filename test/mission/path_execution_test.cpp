@@ -46,5 +46,13 @@ TEST(PathExecution, VoxelBesideTheSweepIsNoBlock) {
   EXPECT_FALSE(execution.blockedAt());
 }
 
+TEST(PathExecution, NearestArcIsThatOfThePlaceBeside) {
+  const PathExecution execution = straight();
+  EXPECT_NEAR(execution.nearestArc({4.2, 0.7, 1.1}, 0.0, 10.0), 4.2, 1e-6);
+  EXPECT_NEAR(execution.nearestArc({-3.0, 0.0, 1.0}, 0.0, 10.0), 0.0, 1e-6);
+  EXPECT_NEAR(execution.nearestArc({12.0, 0.0, 1.0}, 0.0, 10.0), 10.0, 1e-6);
+  EXPECT_GT(execution.nearestArc({1.0, 0.0, 1.0}, 6.0, 10.0), 5.5);  // only looked at around there
+}
+
 }  // namespace
 }  // namespace spelunk::mission

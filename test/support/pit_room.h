@@ -6,7 +6,8 @@ namespace spelunk::test {
 
 /// A room of 20 x 7 x 3 m from x = -4 on, its floor at z = 0, with a pit (0.8 m deep, 1.2 m long,
 /// 2.6 m wide) and behind it a block 0.4 m high, both across the straight way along y = 0; a robot
-/// with legs can pass beside each.
+/// with legs can pass beside each. What lies behind the wall at x = 12 can only be seen from its
+/// door (2.2 m wide, at the side), which makes the robot walk.
 inline sim::WorldMesh pitRoom() {
   sim::WorldMesh mesh;
   mesh.name = "pit_room";
@@ -19,6 +20,7 @@ inline sim::WorldMesh pitRoom() {
   solid(4, -3.5F, -0.8F, 5.2F, -1.3F, 0);
   solid(4, 1.3F, -0.8F, 5.2F, 3.5F, 0);
   solid(9, -1.4F, 0, 9.8F, 1.4F, 0.4F);  // the block
+  solid(12, -1.3F, 0, 12.2F, 3.5F, 3);
   solid(-4.2F, -3.7F, -1, -4, 3.7F, 3.2F);
   solid(16, -3.7F, -1, 16.2F, 3.7F, 3.2F);
   solid(-4, -3.7F, -1, 16, -3.5F, 3.2F);
