@@ -9,25 +9,22 @@ import rospy
 import rostest
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-from ros_support import Listener
+from ros_support import Listener, MissionChecks
 
-from nav_msgs.msg import Odometry, Path
+from nav_msgs.msg import Path
 from sensor_msgs.msg import PointCloud2
-from spelunk.msg import Graph, PlannerStatus
+from spelunk.msg import Graph
 from std_msgs.msg import UInt32
-from std_srvs.srv import Trigger
 from trajectory_msgs.msg import MultiDOFJointTrajectory
 from visualization_msgs.msg import Marker, MarkerArray
 
 DONE_WITHIN_S = 45.0
 
 
-class MissionOverTopics(unittest.TestCase):
+class MissionOverTopics(MissionChecks, unittest.TestCase):
     @classmethod
     def setUpClass(cls):
         rospy.init_node("mission_over_topics_test")
-        cls.status = Listener("status", PlannerStatus)
-        cls.odometry = Listener("odometry", Odometry)
         cls.path = Listener("path", Path)
         cls.trajectory = Listener("command/trajectory", MultiDOFJointTrajectory)
         cls.graph = Listener("graph", Graph)
@@ -35,20 +32,7 @@ class MissionOverTopics(unittest.TestCase):
         cls.map_cloud = Listener("map_cloud", PointCloud2)
         cls.collisions = Listener("collisions", UInt32)
         cls.mesh = Listener("mesh", Marker)
-        assert cls.odometry.wait(lambda _: True, 20.0), "no odometry"
-        rospy.wait_for_service("planner_node/start", timeout=20.0)
-        rospy.sleep(1.0)
-        cls.start = rospy.ServiceProxy("planner_node/start", Trigger)()
-        cls.done = cls.status.wait(lambda status: status.state == "Done", DONE_WITHIN_S)
-
-    def test_explores_and_ends_with_a_reason(self):
-        self.assertTrue(self.start.success, self.start.message)
-        self.assertIsNotNone(self.done, "not done in time; last: %s" % self.status.latest())
-        self.assertRegex(self.done.reason, "explored|home by endurance")
-        self.assertGreater(self.done.distance_m, 2.0, "the robot hardly moved")
-        self.assertGreater(self.done.explored_volume_m3, 100.0)
-        self.assertGreater(self.done.remaining_s, 0.0)
-        self.assertGreater(self.done.plans, 0)
+        cls.fly_mission(1.0, DONE_WITHIN_S)
 
     def test_ends_where_it_began_and_touched_nothing(self):
         first, last = self.odometry.messages[0], self.odometry.latest()

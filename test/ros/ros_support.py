@@ -9,6 +9,8 @@ import tf2_ros
 from geometry_msgs.msg import TransformStamped
 from nav_msgs.msg import Odometry
 from sensor_msgs.msg import PointCloud2, PointField
+from spelunk.msg import PlannerStatus
+from std_srvs.srv import Trigger
 
 
 class Listener:
@@ -47,6 +49,30 @@ class Listener:
                 if left <= 0.0 or rospy.is_shutdown():
                     return None
                 self._condition.wait(left)
+
+
+class MissionChecks:
+    """For test cases that let both nodes run a whole mission; call fly_mission() in setUpClass, after
+    the case's own listeners are there."""
+
+    @classmethod
+    def fly_mission(cls, settle_s, done_within_s):
+        cls.status = Listener("status", PlannerStatus)
+        cls.odometry = Listener("odometry", Odometry)
+        assert cls.odometry.wait(lambda _: True, 20.0), "no odometry"
+        rospy.wait_for_service("planner_node/start", timeout=20.0)
+        rospy.sleep(settle_s)
+        cls.start = rospy.ServiceProxy("planner_node/start", Trigger)()
+        cls.done = cls.status.wait(lambda status: status.state == "Done", done_within_s)
+
+    def test_explores_and_ends_with_a_reason(self):
+        self.assertTrue(self.start.success, self.start.message)
+        self.assertIsNotNone(self.done, "not done in time; last: %s" % self.status.latest())
+        self.assertRegex(self.done.reason, "explored|home by endurance")
+        self.assertGreater(self.done.distance_m, 2.0, "the robot hardly moved")
+        self.assertGreater(self.done.explored_volume_m3, 100.0)
+        self.assertGreater(self.done.remaining_s, 0.0)
+        self.assertGreater(self.done.plans, 0)
 
 
 def cloud_message(points, frame, stamp):

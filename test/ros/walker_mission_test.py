@@ -10,41 +10,25 @@ import rospy
 import rostest
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-from ros_support import Listener
+from ros_support import Listener, MissionChecks
 
-from nav_msgs.msg import OccupancyGrid, Odometry
+from nav_msgs.msg import OccupancyGrid
 from sensor_msgs.msg import JointState, PointCloud2
-from spelunk.msg import PlannerStatus
 from std_msgs.msg import UInt32
-from std_srvs.srv import Trigger
 
 DONE_WITHIN_S = 80.0
 
 
-class WalkerMission(unittest.TestCase):
+class WalkerMission(MissionChecks, unittest.TestCase):
     @classmethod
     def setUpClass(cls):
         rospy.init_node("walker_mission_test")
-        cls.status = Listener("status", PlannerStatus)
-        cls.odometry = Listener("odometry", Odometry)
         cls.joints = Listener("joint_states", JointState)
         cls.elevation = Listener("elevation", PointCloud2)
         cls.traversability = Listener("traversability", OccupancyGrid)
         cls.falls = Listener("falls", UInt32)
         cls.collisions = Listener("collisions", UInt32)
-        assert cls.odometry.wait(lambda _: True, 20.0), "no odometry"
-        rospy.wait_for_service("planner_node/start", timeout=20.0)
-        rospy.sleep(2.0)
-        cls.start = rospy.ServiceProxy("planner_node/start", Trigger)()
-        cls.done = cls.status.wait(lambda status: status.state == "Done", DONE_WITHIN_S)
-
-    def test_explores_and_ends_with_a_reason(self):
-        self.assertTrue(self.start.success, self.start.message)
-        self.assertIsNotNone(self.done, "not done in time; last: %s" % self.status.latest())
-        self.assertRegex(self.done.reason, "explored|home by endurance")
-        self.assertGreater(self.done.distance_m, 2.0, "the robot hardly moved")
-        self.assertGreater(self.done.explored_volume_m3, 100.0)
-        self.assertGreater(self.done.remaining_s, 0.0)
+        cls.fly_mission(2.0, DONE_WITHIN_S)
 
     def test_ends_where_it_began_on_its_feet(self):
         first = self.odometry.messages[0].pose.pose.position
