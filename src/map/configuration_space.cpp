@@ -15,7 +15,8 @@ namespace {
 
 // A face that lies exactly on a border between voxels must not count as touching the next one.
 constexpr double kFaceTolerance = 1e-4;    // metres
-constexpr std::size_t kChunksKept = 4096;  // 130 MB
+constexpr std::size_t kChunksKept = 2048;  // 65 MB
+constexpr const char* kNoMap = "ConfigurationSpace: no map; call use() first";
 
 /// The voxels a box touches.
 struct VoxelBox {
@@ -226,7 +227,7 @@ Occupancy ConfigurationSpace::Impl::reasonAt(const VoxelBox& box) const {
 template <class Blocked>
 bool ConfigurationSpace::Impl::walk(const Eigen::Vector3d& a, const Eigen::Vector3d& b,
                                     Blocked&& blocked) {
-  require(map != nullptr, "ConfigurationSpace: no map; call use() first");
+  require(map != nullptr, kNoMap);
   VoxelBox box = boxOf(a);
   if (!isFree(box)) return blocked(box);
   if (a == b) return true;
@@ -295,6 +296,11 @@ Occupancy ConfigurationSpace::sweep(const Eigen::Vector3d& a, const Eigen::Vecto
 }
 
 const Eigen::Vector3d& ConfigurationSpace::boxSize() const { return impl_->box_size; }
+
+double ConfigurationSpace::resolution() const {
+  require(impl_->map != nullptr, kNoMap);
+  return impl_->map->resolution();
+}
 
 std::size_t ConfigurationSpace::inflations() const { return impl_->inflations; }
 

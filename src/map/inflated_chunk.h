@@ -10,8 +10,6 @@
 
 namespace spelunk::map {
 
-inline constexpr int kChunkSide = 32;
-
 /// A box of voxels by its phase: on each axis it spans `span` + 1 voxels, or one more.
 struct BoxSpan {
   VoxelIndex least;  ///< Last minus first voxel at the box's best phase.

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "spelunk/common/robot_model.h"
+#include "spelunk/map/configuration_space.h"
 #include "spelunk/map/credible_map.h"
 #include "spelunk/map/volumetric_gain.h"
 #include "spelunk/planners/exploration_planner.h"
@@ -46,6 +47,8 @@ class GbPlanner final : public ExplorationPlanner {
   RobotModel robot_;
   map::GainEvaluator evaluator_;
   map::CredibleMap credible_;
+  map::ConfigurationSpace body_;
+  map::ConfigurationSpace roomy_;  ///< With the safety margin.
   GlobalGraph global_;
   TriedTargets tried_;
   std::optional<Proposal> proposal_;
