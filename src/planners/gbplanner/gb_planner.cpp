@@ -103,7 +103,7 @@ struct GbPlanner::Search {
                           request.last_outcome == PathOutcome::kReplaced;
     LocalContext context{planner.tried_, std::nullopt,
                          std::isfinite(way_home_m) ? way_home_m : 0.0};
-    if (flies_on) context.previous_target = previous->target;
+    if (flies_on) context.previous_target = previous->end;
     local =
         gbplanner::planLocally(request, view, root, context, planner.robot_, params, result.stats);
   }
@@ -268,7 +268,7 @@ struct GbPlanner::Search {
     result.status = PlanStatus::kOk;
     result.kind = kind;
     result.path = startingAtPose(line);
-    planner.proposal_ = Proposal{kind, target};
+    planner.proposal_ = Proposal{kind, target, line.back()};
     if (kind == PathKind::kLocal) planner.global_.addPath(line, view.space());
   }
 

@@ -36,7 +36,8 @@ class GbPlanner final : public ExplorationPlanner {
   /// The newest path proposed by plan().
   struct Proposal {
     PathKind kind = PathKind::kLocal;
-    Eigen::Vector3d target = Eigen::Vector3d::Zero();
+    Eigen::Vector3d target = Eigen::Vector3d::Zero();  ///< The vertex it was chosen for.
+    Eigen::Vector3d end = Eigen::Vector3d::Zero();     ///< Where it ends: it may have been cut.
   };
   struct Search;
 
