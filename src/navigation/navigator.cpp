@@ -12,7 +12,12 @@
 namespace spelunk::navigation {
 namespace {
 
-enum class Method { kAdaptive, kPlain };
+enum class Method { kAdaptive, kPlain, kPlainShort };
+
+Method methodOf(const NavigationParams& params) {
+  if (params.method == "adaptive") return Method::kAdaptive;
+  return params.method == "plain" ? Method::kPlain : Method::kPlainShort;
+}
 
 /// One way to search, tried in turn.
 struct Attempt {
@@ -37,7 +42,7 @@ struct Query {
       : asked(asked_query),
         params(parameters),
         grids(map_grids),
-        method(parameters.method == "plain" ? Method::kPlain : Method::kAdaptive),
+        method(methodOf(parameters)),
         start(asked.start.position) {}
 
   NavigationAnswer run() {
@@ -111,7 +116,7 @@ struct Query {
 
   /// The first kind of attempt counts: nothing less safe is taken because it is straight.
   bool goStraight(const Attempt& attempt) {
-    if (is_straight_tried) return false;
+    if (is_straight_tried || method == Method::kPlain) return false;
     is_straight_tried = true;
     SearchSpace space(asked, start, grids, attempt.unknown, attempt.clearance);
     if (!space.isFree(start, asked.goal.position)) return false;
@@ -128,6 +133,7 @@ struct Query {
     task.extension_m = params.extension_m;
     task.iterations = iterations;
     task.time_limit_s = secondsLeft();
+    task.line = method == Method::kPlain ? TreeLine::kAsFound : TreeLine::kSimplified;
     std::optional<map::FreeVoxels> known;
     if (method == Method::kAdaptive) known.emplace(asked.map, task.region);
     const double known_share = attempt.unknown == Unknown::kClosed ? 1.0 : kKnownShare;
@@ -215,8 +221,8 @@ struct Query {
 }  // namespace
 
 std::vector<std::string> NavigationParams::problems() const {
-  if (method == "adaptive" || method == "plain") return {};
-  return {"navigation.method = '" + method + "': write adaptive or plain"};
+  if (method == "adaptive" || method == "plain" || method == "plain_short") return {};
+  return {"navigation.method = '" + method + "': write adaptive, plain or plain_short"};
 }
 
 const char* toText(NavigationStatus status) {

@@ -121,6 +121,24 @@ TEST_P(InflatedWindowOf, RefusedSweepsReallyTouchABlockedVoxel) {
   EXPECT_GE(refused, 100);
 }
 
+TEST_P(InflatedWindowOf, NotOccupiedLetsThroughTheUnknownAndStopsAtTheRim) {
+  const InflatedWindow open(*window_, GetParam().box, Passable::kNotOccupied);
+  int unknown = 0;
+  for (int i = 0; i < 5000; ++i) {
+    const Eigen::Vector3d centre = i % 2 == 0 ? anywhere() : onGrid(anywhere());
+    const Occupancy plain = plainBox(*window_, centre, GetParam().box);
+    const Eigen::Vector3d half = 0.5 * GetParam().box.array() - 1e-4;
+    const bool is_inside =
+        ((window_->indexOf(centre - half) - window_->origin()).array() >= 0).all() &&
+        ((window_->indexOf(centre + half) - window_->origin()).array() < window_->size().array())
+            .all();
+    ASSERT_EQ(open.isFree(centre), is_inside && plain != Occupancy::kOccupied)
+        << centre.transpose();
+    unknown += open.isFree(centre) && plain == Occupancy::kUnknown ? 1 : 0;
+  }
+  EXPECT_GT(unknown, 20);
+}
+
 INSTANTIATE_TEST_SUITE_P(
     Boxes, InflatedWindowOf,
     testing::Values(Case{{1.4, 1.4, 0.5}, 0.2, {40, 36, 14}},

@@ -139,13 +139,24 @@ TEST(Navigator, AdaptiveStaysInKnownSpaceWhereThePlainOneCutsThroughTheUnknown) 
   query.box = kBox;
   query.rng = Rng(3);
   const NavigationAnswer adaptive = navigator("adaptive").plan(query);
-  const NavigationAnswer plain = navigator("plain").plan(query);
+  const NavigationAnswer plain = navigator("plain_short").plan(query);
   ASSERT_EQ(adaptive.status, NavigationStatus::kOk);
   ASSERT_EQ(plain.status, NavigationStatus::kOk);
   EXPECT_NEAR(adaptive.known_length_m, lengthOf(adaptive.path), 1e-9);
   EXPECT_GT(lengthOf(adaptive.path), 30.0);
   EXPECT_NEAR(lengthOf(plain.path), 12.0, 1e-9);
   EXPECT_LT(plain.known_length_m, 2.0);
+}
+
+TEST(Navigator, PlainTakesTheTreesAsTheyAre) {
+  const NavigationQuery query = acrossTheHalls();
+  const NavigationAnswer plain = navigator("plain").plan(query);
+  const NavigationAnswer shortened = navigator("plain_short").plan(query);
+  ASSERT_EQ(plain.status, NavigationStatus::kOk);
+  ASSERT_EQ(shortened.status, NavigationStatus::kOk);
+  EXPECT_GT(lengthOf(plain.path), 1.1 * lengthOf(shortened.path));
+  for (std::size_t i = 1; i < plain.path.size(); ++i)
+    EXPECT_LE(distance(plain.path[i - 1], plain.path[i]), 1.0 + 1e-9) << "one extension";
 }
 
 TEST(Navigator, TreesHoldTheStartAndEachEdgeIsFree) {
