@@ -48,7 +48,8 @@ struct GoToTask {
   NavigationJob job;  ///< Of the newest plan.
   Path plan;          ///< From where the robot was then to the point, unknown space included.
   std::optional<navigation::PathMonitor> monitor;
-  double taken_up_m = 0.0;  ///< The plan's length up to which it was checked and flown.
+  double safe_distance_m = 0.0;  ///< That the plan keeps; rounded corners are to keep it too.
+  double taken_up_m = 0.0;       ///< The plan's length up to which it was checked and flown.
   ReplanCause cause = ReplanCause::kNone;
   std::vector<NoGoZone> unseen;  ///< Places on earlier plans that did not come into view.
   Eigen::Vector3d replanned_at = Eigen::Vector3d::Zero();
@@ -157,7 +158,12 @@ struct Mission::Impl {
   [[nodiscard]] double affordableLength(const Path& path, const std::optional<Path>& home_path);
   [[nodiscard]] Trajectory smoothest(const Path& path, const navigation::MotionStart& start,
                                      const Eigen::Vector3d& box);
-  void fly(const Path& path, planners::PathKind kind, const Eigen::Vector3d& box);
+  void fly(const Path& path, planners::PathKind kind, const Eigen::Vector3d& box) {
+    fly(path, kind, box, box);
+  }
+  /// Corners are rounded as far as `corner_box`, which may be larger, stays free.
+  void fly(const Path& path, planners::PathKind kind, const Eigen::Vector3d& box,
+           const Eigen::Vector3d& corner_box);
 
   // --- The way home (mission_home.cpp).
   void noteRoute(const Path& rest, const planners::PlanResult& home);
