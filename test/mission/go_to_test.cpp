@@ -28,10 +28,9 @@ struct Flight {
       scripted.step();
       if (scripted.commands() == commands || scripted.lastCommand()->path.empty()) continue;
       commands = scripted.commands();
-      const auto map = scripted.mission().map().freeze();
-      EXPECT_TRUE(navigation::checkPath(*map, scripted.lastCommand()->path,
-                                        0.9 * scripted.mission().robot().box_m, {}, {})
-                      .isFree())
+      map::ConfigurationSpace space(0.9 * scripted.mission().robot().box_m,
+                                    scripted.mission().map().freeze());
+      EXPECT_TRUE(navigation::checkPath(space, scripted.lastCommand()->path, {}, {}).isFree())
           << "at " << scripted.now() << " s";
     }
     return status();
