@@ -99,8 +99,7 @@ struct Mission::Impl {
   [[nodiscard]] std::optional<navigation::NavigationQuery> goToQuery(const Eigen::Vector3d& point);
   Answer goTo(const navigation::NavigationParams& params, const navigation::NavigationQuery& query,
               const navigation::NavigationAnswer& answer);
-  [[nodiscard]] std::string goToProblem(const navigation::NavigationQuery& query,
-                                        const navigation::NavigationAnswer& answer);
+  [[nodiscard]] std::string goToProblem(const Eigen::Vector3d& point);
   void stepGoTo();
   void endGoTo(GoToOutcome outcome, const std::string& why);
   void noteAbortedGoTo();
