@@ -76,12 +76,12 @@ def print_table(arguments):
         for home_known in (False, True):
             if home_known and problem[4] is None:
                 continue
-            for method, label in METHODS.items():
+            for method in arguments.methods:
                 ours, arrived, runs = flown(arguments, problem, method, home_known)
                 # The paper flies home in the rooms and does not say whether the mine's goal was known.
                 is_papers = home_known or problem[0] in ("2-SHAFT", "MINE")
                 paper = PAPER.get((problem[0], method)) if is_papers else None
-                print(f"| {problem[0]} | {'known' if home_known else 'unknown'} | {label} "
+                print(f"| {problem[0]} | {'known' if home_known else 'unknown'} | {METHODS[method]} "
                       f"| {cells(paper)} | {cells(ours)} | {arrived} of {runs} |")
                 sys.stdout.flush()
 
@@ -90,6 +90,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawTextHelpFormatter)
     parser.add_argument("--mission", required=True, help="the mission executable")
     parser.add_argument("--out", required=True, help="folder for the runs")
+    parser.add_argument("--methods", nargs="+", default=list(METHODS), choices=list(METHODS))
     parser.add_argument("--seeds", type=int, default=5)
     arguments = parser.parse_args()
     os.makedirs(arguments.out, exist_ok=True)

@@ -32,7 +32,8 @@ NoGoZone unseenAround(const Eigen::Vector3d& place) {
 bool Mission::Impl::isPlanBlocked() {
   const double here = project(go_to->plan, input.latest()->pose.position).arc_m;
   const Path rest = slice(go_to->plan, here, lengthOf(go_to->plan));
-  map::ConfigurationSpace& open = spaceOf(robot.box_m, map::Passable::kNotOccupied);
+  map::ConfigurationSpace& open = go_to->open;
+  open.use(map.freeze());
   for (std::size_t i = 1; i < rest.size(); ++i)
     if (!open.isSweepFree(rest[i - 1].position, rest[i].position)) return true;
   return false;
@@ -66,7 +67,8 @@ std::string Mission::Impl::flyPlan(double from_m, double to_m) {
     if (whole.empty() || distance(whole.back(), pose) > kEnd_m) whole.push_back(pose);
   if (affordableLength(whole, std::nullopt) < lengthOf(whole))
     return "no way home from farther on the way to the point fits the endurance";
-  fly(whole, planners::PathKind::kReposition, robot.box_m);
+  fly(whole, planners::PathKind::kReposition, robot.box_m,
+      robot.box_m + Eigen::Vector3d::Constant(2.0 * go_to->safe_distance_m));
   go_to->taken_up_m = to_m;
   return "";
 }
@@ -133,6 +135,7 @@ void Mission::Impl::installPlan(const navigation::NavigationAnswer& answer) {
   status.go_to.planning_s += 1e-3 * answer.planning_ms;
   go_to->plan = answer.path;
   go_to->monitor.emplace(answer.path, robot.box_m, map.params().resolution_m);
+  go_to->safe_distance_m = answer.safe_distance_m;
   go_to->taken_up_m = 0.0;
   go_to->is_suspect = false;
   go_to->stopped_s = now;

@@ -46,15 +46,19 @@ enum class ReplanCause { kNone, kObstacle, kDeviation };
 
 /// The flight to a point that was asked for.
 struct GoToTask {
+  explicit GoToTask(const Eigen::Vector3d& box) : open(box, map::Passable::kNotOccupied) {}
+
   NavigationJob job;  ///< Of the newest plan.
   Path plan;          ///< From where the robot was then to the point, unknown space included.
   std::optional<navigation::PathMonitor> monitor;
-  double taken_up_m = 0.0;  ///< The plan's length up to which it was checked and flown.
+  double safe_distance_m = 0.0;  ///< That the plan keeps; rounded corners are to keep it too.
+  double taken_up_m = 0.0;       ///< The plan's length up to which it was checked and flown.
   ReplanCause cause = ReplanCause::kNone;
   std::vector<NoGoZone> unseen;  ///< Places on earlier plans that did not come into view.
   Eigen::Vector3d replanned_at = Eigen::Vector3d::Zero();
-  int fruitless = 0;        ///< Replans since the robot last got somewhere.
-  bool is_suspect = false;  ///< A voxel on the plan became occupied since the last look.
+  int fruitless = 0;             ///< Replans since the robot last got somewhere.
+  map::ConfigurationSpace open;  ///< Unknown space included.
+  bool is_suspect = false;       ///< A voxel on the plan became occupied since the last look.
   double next_look_s = 0.0;
   double stopped_s = 0.0;  ///< When the last leg ended.
 };
@@ -95,8 +99,7 @@ struct Mission::Impl {
   [[nodiscard]] std::optional<navigation::NavigationQuery> goToQuery(const Eigen::Vector3d& point);
   Answer goTo(const navigation::NavigationParams& params, const navigation::NavigationQuery& query,
               const navigation::NavigationAnswer& answer);
-  [[nodiscard]] std::string goToProblem(const navigation::NavigationQuery& query,
-                                        const navigation::NavigationAnswer& answer);
+  [[nodiscard]] std::string goToProblem(const Eigen::Vector3d& point);
   void stepGoTo();
   void endGoTo(GoToOutcome outcome, const std::string& why);
   void noteAbortedGoTo();
@@ -158,7 +161,12 @@ struct Mission::Impl {
   [[nodiscard]] double affordableLength(const Path& path, const std::optional<Path>& home_path);
   [[nodiscard]] Trajectory smoothest(const Path& path, const navigation::MotionStart& start,
                                      const Eigen::Vector3d& box);
-  void fly(const Path& path, planners::PathKind kind, const Eigen::Vector3d& box);
+  void fly(const Path& path, planners::PathKind kind, const Eigen::Vector3d& box) {
+    fly(path, kind, box, box);
+  }
+  /// Corners are rounded as far as `corner_box`, which may be larger, stays free.
+  void fly(const Path& path, planners::PathKind kind, const Eigen::Vector3d& box,
+           const Eigen::Vector3d& corner_box);
 
   // --- The way home (mission_home.cpp).
   void noteRoute(const Path& rest, const planners::PlanResult& home);

@@ -8,6 +8,7 @@
 #include "spelunk/common/contract.h"
 #include "spelunk/common/stopwatch.h"
 #include "spelunk/map/free_voxels.h"
+#include "spelunk/navigation/swept_path_check.h"
 
 namespace spelunk::navigation {
 namespace {
@@ -38,10 +39,10 @@ AxisAlignedBox grown(const AxisAlignedBox& box, double by_m) {
 /// One query; lives for one call.
 struct Query {
   Query(const NavigationQuery& asked_query, const NavigationParams& parameters,
-        InflatedGrids& map_grids)
+        RobotSpaces& robot_spaces)
       : asked(asked_query),
         params(parameters),
-        grids(map_grids),
+        spaces(robot_spaces),
         method(methodOf(parameters)),
         start(asked.start.position) {}
 
@@ -77,11 +78,11 @@ struct Query {
       return refused(NavigationStatus::kOutOfBounds, "the goal lies outside the bounds"), false;
     if (isInZone(goal))
       return refused(NavigationStatus::kNoGo, "the goal lies in a no-go zone"), false;
-    if (!grids.open().isFree(goal))
+    if (!spaces.open.isFree(goal))
       return refused(NavigationStatus::kGoalBlocked,
                      "the robot's box at the goal touches an obstacle"),
              false;
-    is_goal_known = grids.known().isFree(goal);
+    is_goal_known = spaces.known.isFree(goal);
     if (!is_goal_known && asked.region == SearchRegion::kKnown)
       return refused(NavigationStatus::kGoalUnknown, "the goal is not in known free space"), false;
     return true;
@@ -90,8 +91,8 @@ struct Query {
   bool checkStart() {
     if (isInZone(start))
       return refused(NavigationStatus::kNoGo, "the start lies in a no-go zone"), false;
-    SearchSpace space(asked, start, grids, Unknown::kClosed, Clearance::kBox);
-    const auto place = freePlaceNear(start, space, grids);
+    SearchSpace space(asked, start, spaces, Unknown::kClosed, Clearance::kBox);
+    const auto place = freePlaceNear(start, space, spaces);
     if (!place)
       return refused(NavigationStatus::kStartBlocked,
                      "the robot's box at the start is not in known free space"),
@@ -118,14 +119,14 @@ struct Query {
   bool goStraight(const Attempt& attempt) {
     if (is_straight_tried || method == Method::kPlain) return false;
     is_straight_tried = true;
-    SearchSpace space(asked, start, grids, attempt.unknown, attempt.clearance);
+    SearchSpace space(asked, start, spaces, attempt.unknown, attempt.clearance);
     if (!space.isFree(start, asked.goal.position)) return false;
     accept({start, asked.goal.position}, space, "the straight line is free");
     return true;
   }
 
   bool search(const Attempt& attempt, int iterations) {
-    SearchSpace space(asked, start, grids, attempt.unknown, attempt.clearance);
+    SearchSpace space(asked, start, spaces, attempt.unknown, attempt.clearance);
     TreeTask task;
     task.start = start;
     task.goal = asked.goal.position;
@@ -140,8 +141,10 @@ struct Query {
     task.draw = [&](Rng& rng) {
       return drawn(known && rng.uniform() < known_share ? &*known : nullptr, task.region, rng);
     };
-    TreeResult found =
-        growTrees(task, space, asked.rng.fork("trees/" + std::to_string(searches++)));
+    task.is_free = [&](const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
+      return space.isFree(a, b);
+    };
+    TreeResult found = growTrees(task, asked.rng.fork("trees/" + std::to_string(searches++)));
     answer.iterations += found.iterations;
     if (asked.trees == TreeDetail::kKeep) answer.trees = std::move(found.trees);
     if (found.line.empty()) return noteReached(found.reached), false;
@@ -172,7 +175,7 @@ struct Query {
       const bool is_nearer =
           !answer.nearest_reachable ||
           (place - goal).squaredNorm() < (*answer.nearest_reachable - goal).squaredNorm();
-      if (is_nearer && grids.known().isFree(place)) answer.nearest_reachable = place;
+      if (is_nearer && spaces.known.isFree(place)) answer.nearest_reachable = place;
     }
   }
 
@@ -194,7 +197,7 @@ struct Query {
   void noteKnownLength() {
     const bool steps_out = start != asked.start.position;
     const Path rest(answer.path.begin() + (steps_out ? 1 : 0), answer.path.end());
-    answer.known_length_m = knownLength(rest, grids.known());
+    answer.known_length_m = checkPath(spaces.known, rest, {}, {}).arc_m;
     if (steps_out) answer.known_length_m += (start - asked.start.position).norm();
   }
 
@@ -208,7 +211,7 @@ struct Query {
 
   const NavigationQuery& asked;
   const NavigationParams& params;
-  InflatedGrids& grids;
+  RobotSpaces& spaces;
   Method method;
   Eigen::Vector3d start;
   bool is_goal_known = false;
@@ -247,7 +250,7 @@ const char* toText(NavigationStatus status) {
 
 struct Navigator::Impl {
   NavigationParams params;
-  std::optional<InflatedGrids> grids;
+  std::optional<RobotSpaces> spaces;
 };
 
 Navigator::Navigator(const NavigationParams& params) : impl_(new Impl{params, std::nullopt}) {
@@ -262,10 +265,10 @@ NavigationAnswer Navigator::plan(const NavigationQuery& query) {
   require(isFinite(query.start) && isFinite(query.goal), "Navigator: start or goal is not finite");
   require(query.box.allFinite() && (query.box.array() > 0.0).all(), "Navigator: bad box");
   const Stopwatch watch;
-  if (!impl_->grids || impl_->grids->box() != query.box)
-    impl_->grids.emplace(query.box, impl_->params.safe_distance_m);
-  impl_->grids->use(query.map);
-  NavigationAnswer answer = Query(query, impl_->params, *impl_->grids).run();
+  if (!impl_->spaces || impl_->spaces->known.boxSize() != query.box)
+    impl_->spaces.emplace(query.box, impl_->params.safe_distance_m);
+  impl_->spaces->use(query.map);
+  NavigationAnswer answer = Query(query, impl_->params, *impl_->spaces).run();
   answer.planning_ms = watch.milliseconds();
   return answer;
 }

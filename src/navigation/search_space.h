@@ -8,27 +8,22 @@
 
 namespace spelunk::navigation {
 
-/// Where the robot's box may be, by what it may touch.
-class InflatedGrids {
- public:
-  InflatedGrids(const Eigen::Vector3d& box, double safe_distance_m);
+/// The configuration spaces of one robot: what they inflated is kept from map to map.
+struct RobotSpaces {
+  RobotSpaces(const Eigen::Vector3d& box, double safe_distance_m)
+      : known(box, map::Passable::kKnownFree),
+        open(box, map::Passable::kNotOccupied),
+        safe(box + Eigen::Vector3d::Constant(2.0 * safe_distance_m), map::Passable::kNotOccupied),
+        body(0.5 * box, map::Passable::kNotOccupied) {}
 
-  [[nodiscard]] const Eigen::Vector3d& box() const { return known_.boxSize(); }
-  /// From now on everything is about this map; what did not change in it is kept.
-  void use(const std::shared_ptr<const map::FrozenMap>& map);
+  void use(const std::shared_ptr<const map::FrozenMap>& map) {
+    for (map::ConfigurationSpace* space : {&known, &open, &safe, &body}) space->use(map);
+  }
 
-  map::ConfigurationSpace& known() { return known_; }
-  map::ConfigurationSpace& open() { return open_; }
-  /// The box grown by the safe distance on each side, kept clear of obstacles only.
-  map::ConfigurationSpace& safe() { return safe_; }
-  /// Half the box, kept clear of obstacles only: the robot's body.
-  map::ConfigurationSpace& body() { return body_; }
-
- private:
-  map::ConfigurationSpace known_;
-  map::ConfigurationSpace open_;
-  map::ConfigurationSpace safe_;
-  map::ConfigurationSpace body_;
+  map::ConfigurationSpace known;
+  map::ConfigurationSpace open;  ///< Unknown space included.
+  map::ConfigurationSpace safe;  ///< The box grown by the safe distance, clear of obstacles only.
+  map::ConfigurationSpace body;  ///< Half the box, clear of obstacles only.
 };
 
 enum class Unknown { kClosed, kOpen };
@@ -37,7 +32,7 @@ enum class Clearance { kBox, kSafeDistance };
 /// Where one search may go. A view for the duration of one query.
 class SearchSpace {
  public:
-  SearchSpace(const NavigationQuery& query, const Eigen::Vector3d& start, InflatedGrids& grids,
+  SearchSpace(const NavigationQuery& query, const Eigen::Vector3d& start, RobotSpaces& spaces,
               Unknown unknown, Clearance clearance);
 
   [[nodiscard]] bool isFree(const Eigen::Vector3d& a, const Eigen::Vector3d& b);
@@ -52,18 +47,14 @@ class SearchSpace {
 
   const NavigationQuery& query_;
   Eigen::Vector3d start_;
-  InflatedGrids& grids_;
+  RobotSpaces& spaces_;
   Unknown unknown_;
   Clearance clearance_;
 };
 
-/// The line's length up to which the box is in known free space, to about a voxel.
-[[nodiscard]] double knownLength(const Path& path, map::ConfigurationSpace& known);
-
 /// The given place if the box is free there; else the nearest one within 0.6 m that the robot's
 /// body can step out to.
 [[nodiscard]] std::optional<Eigen::Vector3d> freePlaceNear(const Eigen::Vector3d& place,
-                                                           SearchSpace& space,
-                                                           InflatedGrids& grids);
+                                                           SearchSpace& space, RobotSpaces& spaces);
 
 }  // namespace spelunk::navigation

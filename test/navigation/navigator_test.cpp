@@ -38,12 +38,6 @@ std::shared_ptr<const map::FrozenMap> hallInTheUnknown() {
   return map.freeze();
 }
 
-bool isPathFree(const std::shared_ptr<const map::FrozenMap>& map, const Path& path,
-                const Eigen::Vector3d& box) {
-  map::ConfigurationSpace space(box, map);
-  return checkPath(space, path, {}, {}).isFree();
-}
-
 NavigationQuery acrossTheHalls() {
   static const auto kMap = twoHalls();
   NavigationQuery query;
@@ -73,6 +67,11 @@ Navigator navigator(const std::string& method = "adaptive", double safe_distance
   return Navigator(params);
 }
 
+bool isKnownFree(const NavigationQuery& query, const Path& path, const Eigen::Vector3d& box) {
+  map::ConfigurationSpace space(box, query.map);
+  return checkPath(space, path, {}, {}).isFree();
+}
+
 TEST(Navigator, FindsTheDoorInKnownSpace) {
   const NavigationQuery query = acrossTheHalls();
   const NavigationAnswer answer = navigator().plan(query);
@@ -80,7 +79,7 @@ TEST(Navigator, FindsTheDoorInKnownSpace) {
   EXPECT_EQ(answer.path.front().position, query.start.position);
   EXPECT_EQ(answer.path.back().position, query.goal.position);
   EXPECT_EQ(answer.path.back().yaw, 1.0);
-  EXPECT_TRUE(isPathFree(query.map, answer.path, query.box));
+  EXPECT_TRUE(isKnownFree(query, answer.path, query.box));
   EXPECT_NEAR(answer.known_length_m, lengthOf(answer.path), 1e-9);
   EXPECT_LT(lengthOf(answer.path), 40.0);  // the shortest is about 36
 }
@@ -117,7 +116,7 @@ TEST(Navigator, PathKeepsTheSafeDistanceAwayFromItsEnds) {
   EXPECT_EQ(answer.safe_distance_m, 0.4);
   const Path inner = slice(answer.path, 1.0, lengthOf(answer.path) - 1.0);
   const Eigen::Vector3d grown = kBox + Eigen::Vector3d::Constant(0.8);
-  EXPECT_TRUE(isPathFree(query.map, inner, grown));
+  EXPECT_TRUE(isKnownFree(query, inner, grown));
 }
 
 TEST(Navigator, NarrowDoorIsTakenWithoutTheSafeDistance) {
@@ -231,7 +230,7 @@ TEST(Navigator, StartThatTouchesAnObstacleIsLeftByAShortStep) {
   EXPECT_EQ(answer.path.front().position, query.start.position);
   EXPECT_LE(distance(answer.path[0], answer.path[1]), 0.6 + 1e-9);
   const Path rest(answer.path.begin() + 1, answer.path.end());
-  EXPECT_TRUE(isPathFree(query.map, rest, query.box));
+  EXPECT_TRUE(isKnownFree(query, rest, query.box));
 }
 
 TEST(Navigator, BadQueriesBreakTheContract) {

@@ -114,8 +114,9 @@ struct NavigationAnswer {
 /// with both, which the paper does not have: a stronger thing to compare with.
 ///
 /// Paths are shortened by OMPL's path simplification under the same rules as the search. The same
-/// query gives the same answer, unless its time limit cuts it short. Keeps the inflated grids
-/// between queries of the same map and box. Not thread-safe.
+/// query gives the same answer, unless its time limit cuts it short. Keeps what it
+/// inflated between queries with the same box; of another map only what changed is done again. Not
+/// thread-safe.
 class Navigator {
  public:
   /// Throws Precondition if the parameters have problems().
