@@ -46,8 +46,6 @@ enum class ReplanCause { kNone, kObstacle, kDeviation };
 
 /// The flight to a point that was asked for.
 struct GoToTask {
-  explicit GoToTask(const Eigen::Vector3d& box) : open(box, map::Passable::kNotOccupied) {}
-
   NavigationJob job;  ///< Of the newest plan.
   Path plan;          ///< From where the robot was then to the point, unknown space included.
   std::optional<navigation::PathMonitor> monitor;
@@ -56,9 +54,8 @@ struct GoToTask {
   ReplanCause cause = ReplanCause::kNone;
   std::vector<NoGoZone> unseen;  ///< Places on earlier plans that did not come into view.
   Eigen::Vector3d replanned_at = Eigen::Vector3d::Zero();
-  int fruitless = 0;             ///< Replans since the robot last got somewhere.
-  map::ConfigurationSpace open;  ///< Unknown space included.
-  bool is_suspect = false;       ///< A voxel on the plan became occupied since the last look.
+  int fruitless = 0;        ///< Replans since the robot last got somewhere.
+  bool is_suspect = false;  ///< A voxel on the plan became occupied since the last look.
   double next_look_s = 0.0;
   double stopped_s = 0.0;  ///< When the last leg ended.
 };
