@@ -24,13 +24,24 @@ std::uint64_t wordMask(int first, int last, int start) {
 
 }  // namespace
 
-BitGrid::BitGrid(const LocalWindow& window, Occupancy status)
-    : size_(window.size()), row_words_((static_cast<std::size_t>(size_.x()) + 63) / 64) {
+BitGrid::BitGrid(const LocalWindow& window, Occupancy status) {
   static_assert(static_cast<int>(Occupancy::kFree) == 1 &&
                 static_cast<int>(Occupancy::kOccupied) == 2);
+  enter(window, status == Occupancy::kFree ? 0 : 1, 0);
+}
+
+BitGrid BitGrid::notOccupied(const LocalWindow& window) {
+  BitGrid grid;
+  grid.enter(window, 1, ~std::uint64_t{0});
+  return grid;
+}
+
+/// Takes one of the two bits of each cell's status, xor `flip`.
+void BitGrid::enter(const LocalWindow& window, unsigned status_bit, std::uint64_t flip) {
+  size_ = window.size();
+  row_words_ = (static_cast<std::size_t>(size_.x()) + 63) / 64;
   words_.assign(
       row_words_ * static_cast<std::size_t>(size_.y()) * static_cast<std::size_t>(size_.z()), 0);
-  const std::size_t status_bit = status == Occupancy::kFree ? 0 : 1;
   const auto length = static_cast<std::size_t>(size_.x());
   const std::uint8_t* packed = window.packedCells().data();
   std::size_t cell = 0;
@@ -39,7 +50,7 @@ BitGrid::BitGrid(const LocalWindow& window, Occupancy status)
       const std::size_t at = cell + x;
       std::uint64_t pairs;
       std::memcpy(&pairs, packed + at / 4, sizeof(pairs));
-      const std::uint64_t bits = everyOther(pairs >> (2 * (at % 4) + status_bit));
+      const std::uint64_t bits = everyOther(pairs >> (2 * (at % 4) + status_bit)) ^ flip;
       const std::size_t count = std::min<std::size_t>(16, length - x);
       words_[row + x / 64] |= (bits & ((1u << count) - 1)) << (x % 64);
     }

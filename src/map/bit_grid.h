@@ -12,8 +12,10 @@ class BitGrid {
  public:
   BitGrid() = default;
 
-  /// The cells of `window` that hold `status`.
+  /// The cells of `window` that hold `status` (free or occupied).
   BitGrid(const LocalWindow& window, Occupancy status);
+  /// The cells of `window` that are not occupied: free or unknown.
+  [[nodiscard]] static BitGrid notOccupied(const LocalWindow& window);
 
   [[nodiscard]] bool at(const VoxelIndex& local) const {
     if (static_cast<unsigned>(local.x()) >= static_cast<unsigned>(size_.x()) ||
@@ -36,6 +38,7 @@ class BitGrid {
   void erode(int axis, int length);
 
  private:
+  void enter(const LocalWindow& window, unsigned status_bit, std::uint64_t flip);
   [[nodiscard]] std::size_t rowOf(int y, int z) const {
     return row_words_ * (static_cast<std::size_t>(y) +
                          static_cast<std::size_t>(size_.y()) * static_cast<std::size_t>(z));

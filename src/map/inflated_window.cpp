@@ -46,7 +46,7 @@ struct AxisMotion {
 }  // namespace
 
 struct InflatedWindow::Impl {
-  Impl(const LocalWindow& window, const Eigen::Vector3d& box_size);
+  Impl(const LocalWindow& window, const Eigen::Vector3d& box_size, Passable passable);
 
   [[nodiscard]] VoxelBox boxOf(const Eigen::Vector3d& centre) const {
     return {voxelOf(centre - half, inverse_resolution) - origin,
@@ -75,13 +75,15 @@ struct InflatedWindow::Impl {
   std::array<BitGrid, 8> inflated;  ///< By phase: one bit an axis, set if the box spans one more.
 };
 
-InflatedWindow::Impl::Impl(const LocalWindow& window, const Eigen::Vector3d& size)
+InflatedWindow::Impl::Impl(const LocalWindow& window, const Eigen::Vector3d& size,
+                           Passable passable)
     : box_size(size),
       half(0.5 * size.array() - kFaceTolerance),
       inverse_resolution(1.0 / window.resolution()),
       origin(window.origin()),
       min_span((2.0 * half * inverse_resolution).cast<int>()),
-      free(window, Occupancy::kFree),
+      free(passable == Passable::kKnownFree ? BitGrid(window, Occupancy::kFree)
+                                            : BitGrid::notOccupied(window)),
       occupied(window, Occupancy::kOccupied) {
   inflated[0] = free;
   for (int axis = 0; axis < 3; ++axis) {
@@ -126,11 +128,12 @@ bool InflatedWindow::Impl::walk(const Eigen::Vector3d& a, const Eigen::Vector3d&
   return isFree(end) || blocked(end);
 }
 
-InflatedWindow::InflatedWindow(const LocalWindow& window, const Eigen::Vector3d& box_size) {
+InflatedWindow::InflatedWindow(const LocalWindow& window, const Eigen::Vector3d& box_size,
+                               Passable passable) {
   require(box_size.allFinite() && (box_size.array() > 2.0 * kFaceTolerance).all(),
           "InflatedWindow: the box must have a positive size");
   require((box_size.array() < 1e6 * window.resolution()).all(), "InflatedWindow: box too large");
-  impl_ = std::make_unique<Impl>(window, box_size);
+  impl_ = std::make_unique<Impl>(window, box_size, passable);
 }
 InflatedWindow::~InflatedWindow() = default;
 InflatedWindow::InflatedWindow(InflatedWindow&&) noexcept = default;

@@ -128,6 +128,7 @@ PathCheck checkPath(const map::FrozenMap& map, const Path& path, const Eigen::Ve
 struct SegmentChecker::Impl {
   std::shared_ptr<const map::FrozenMap> map;
   Eigen::Vector3d box;
+  SweepTiles how;
   std::map<std::tuple<int, int, int>, map::InflatedWindow> tiles;
 
   const map::InflatedWindow& tileAt(const Eigen::Vector3d& point) {
@@ -137,27 +138,33 @@ struct SegmentChecker::Impl {
     if (found != tiles.end()) return found->second;
     const Eigen::Vector3d low = kTile_m * index.cast<double>();
     const Eigen::Vector3d margin =
-        windowMargin(box, map->resolution()) + Eigen::Vector3d::Constant(0.5 * kTile_m);
+        windowMargin(box, map->resolution()) + Eigen::Vector3d::Constant(0.5 * how.piece_m);
     const map::LocalWindow local(*map,
                                  around(low, low + Eigen::Vector3d::Constant(kTile_m), margin));
-    return tiles.emplace(key, map::InflatedWindow(local, box)).first->second;
+    return tiles.emplace(key, map::InflatedWindow(local, box, how.passable)).first->second;
   }
 };
 
 SegmentChecker::SegmentChecker(std::shared_ptr<const map::FrozenMap> map,
-                               const Eigen::Vector3d& box)
-    : impl_(new Impl{std::move(map), box, {}}) {
+                               const Eigen::Vector3d& box, const SweepTiles& tiles)
+    : impl_(new Impl{std::move(map), box, tiles, {}}) {
   require(impl_->map != nullptr, "SegmentChecker: no map");
+  require(tiles.piece_m > 0.0, "SegmentChecker: pieces without length");
 }
 SegmentChecker::~SegmentChecker() = default;
 SegmentChecker::SegmentChecker(SegmentChecker&&) noexcept = default;
 
 map::Occupancy SegmentChecker::sweep(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
-  const double length = (b - a).norm();
-  if (length <= kTile_m) return impl_->tileAt(0.5 * (a + b)).sweep(a, b);
-  const SegmentFault found = checkOccupancy(*impl_->map, a, b, impl_->box);
-  if (found.fault == PathFault::kNone) return map::Occupancy::kFree;
-  return found.fault == PathFault::kOccupied ? map::Occupancy::kOccupied : map::Occupancy::kUnknown;
+  const Eigen::Vector3d way = b - a;
+  const int pieces = std::max(1, static_cast<int>(std::ceil(way.norm() / impl_->how.piece_m)));
+  Eigen::Vector3d from = a;
+  for (int k = 1; k <= pieces; ++k) {
+    const Eigen::Vector3d to = k == pieces ? b : a + way * (static_cast<double>(k) / pieces);
+    const map::Occupancy found = impl_->tileAt(0.5 * (from + to)).sweep(from, to);
+    if (found != map::Occupancy::kFree) return found;
+    from = to;
+  }
+  return map::Occupancy::kFree;
 }
 
 bool SegmentChecker::isFree(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {

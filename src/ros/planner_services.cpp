@@ -4,7 +4,7 @@
 #include <optional>
 #include <utility>
 
-#include "spelunk/navigation/point_to_point.h"
+#include "spelunk/navigation/navigator.h"
 #include "spelunk/ros/convert.h"
 
 namespace spelunk::bridge {
@@ -137,7 +137,7 @@ bool PlannerServices::goTo(GoTo::Request& request, GoTo::Response& response) {
       response.reason = kNoOdometry;
       return;
     }
-    navigation::PointToPointRequest wanted;
+    navigation::NavigationQuery wanted;
     wanted.map = here->map;
     wanted.start = here->pose;
     wanted.goal.position = {request.target.x, request.target.y, request.target.z};
@@ -150,8 +150,8 @@ bool PlannerServices::goTo(GoTo::Request& request, GoTo::Response& response) {
     wanted.bounds = here->bounds;
     wanted.zones = here->zones;
     wanted.rng = nextRng("go_to");
-    const auto found = navigation::planPointToPoint(wanted);
-    if (found.status != navigation::PointToPointStatus::kOk) {
+    const auto found = navigation::Navigator(navigation::NavigationParams{}).plan(wanted);
+    if (found.status != navigation::NavigationStatus::kOk) {
       response.reason = found.reason;
       return;
     }

@@ -7,13 +7,21 @@
 
 namespace spelunk::map {
 
+/// Which voxels a box may touch.
+enum class Passable {
+  kKnownFree,   ///< Unknown space is an obstacle.
+  kNotOccupied  ///< Unknown space may be entered: for plans that reach beyond what was seen.
+};
+
 /// The configuration space of an axis-aligned box in a window: inflated once a cycle, then every
 /// box check is one bit. A box is free only if every voxel it touches is known free; the answers
 /// equal those of looking at each of these voxels (Dang 2020, section 4.1, bounding box D_R).
+/// With Passable::kNotOccupied "free" below reads "not occupied"; beyond the window nothing passes.
 class InflatedWindow {
  public:
   /// `box_size`: full extents, metres.
-  InflatedWindow(const LocalWindow& window, const Eigen::Vector3d& box_size);
+  InflatedWindow(const LocalWindow& window, const Eigen::Vector3d& box_size,
+                 Passable passable = Passable::kKnownFree);
   ~InflatedWindow();
   InflatedWindow(InflatedWindow&&) noexcept;
 

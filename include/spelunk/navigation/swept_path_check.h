@@ -36,16 +36,23 @@ struct PathCheck {
                                   const Eigen::Vector3d& box, const std::vector<NoGoZone>& zones,
                                   const AxisAlignedBox& bounds);
 
+/// How a SegmentChecker answers.
+struct SweepTiles {
+  map::Passable passable = map::Passable::kKnownFree;
+  double piece_m = 6.4;  ///< Longer sweeps are cut into pieces; short ones make smaller windows.
+};
+
 /// Answers many box sweeps over a large map: inflated windows are made where a query falls and kept
-/// (tiles of 6.4 m), so a query costs a look-up and a walk. Same answers as checkPath() without
-/// bounds and zones. Holds the map alive. Not thread-safe.
+/// (tiles of 6.4 m), so a query costs a look-up and a walk. With the default tiles the same answers
+/// as checkPath() without bounds and zones. Holds the map alive. Not thread-safe.
 class SegmentChecker {
  public:
-  SegmentChecker(std::shared_ptr<const map::FrozenMap> map, const Eigen::Vector3d& box);
+  SegmentChecker(std::shared_ptr<const map::FrozenMap> map, const Eigen::Vector3d& box,
+                 const SweepTiles& tiles = {});
   ~SegmentChecker();
   SegmentChecker(SegmentChecker&&) noexcept;
 
-  /// kFree, or why the box moved straight from `a` to `b` is not in known free space.
+  /// kFree, or why the box moved straight from `a` to `b` may not pass.
   [[nodiscard]] map::Occupancy sweep(const Eigen::Vector3d& a, const Eigen::Vector3d& b);
   [[nodiscard]] bool isFree(const Eigen::Vector3d& a, const Eigen::Vector3d& b);
   /// The box standing at one point.

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "search_space.h"
+
+namespace spelunk::navigation {
+
+/// What one run of RRT-Connect is to do.
+struct TreeTask {
+  Eigen::Vector3d start = Eigen::Vector3d::Zero();
+  Eigen::Vector3d goal = Eigen::Vector3d::Zero();
+  AxisAlignedBox region;  ///< Finite; holds start and goal.
+  std::function<Eigen::Vector3d(Rng&)> draw;
+  double extension_m = 3.0;
+  int iterations = 20000;
+  double time_limit_s = 0.0;  ///< May be infinite.
+};
+
+struct TreeResult {
+  std::vector<Eigen::Vector3d> line;  ///< From start to goal, simplified; empty if none was found.
+  int iterations = 0;
+  NavigationTrees trees;
+  std::vector<Eigen::Vector3d> reached;  ///< Vertices of the tree that grew from the start.
+};
+
+/// RRT-Connect as OMPL has it, with our draws and checks; the same task and stream give the same
+/// result.
+[[nodiscard]] TreeResult growTrees(const TreeTask& task, SearchSpace& space, Rng rng);
+
+}  // namespace spelunk::navigation
