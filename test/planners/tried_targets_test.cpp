@@ -1,8 +1,8 @@
-#include "spelunk/planners/gbplanner/tried_targets.h"
+#include "spelunk/planners/shared/tried_targets.h"
 
 #include <gtest/gtest.h>
 
-namespace spelunk::planners::gbplanner {
+namespace spelunk::planners {
 namespace {
 
 const Eigen::Vector3d kTarget(5.0, 0.0, 1.0);
@@ -33,6 +33,14 @@ TEST(TriedTargets, DoNotAddUpDifferentReasons) {
   EXPECT_FALSE(tried.findRefusal(kTarget).has_value());
 }
 
+TEST(TriedTargets, GiveUpAtOnceWhatWasReachedInVain) {
+  TriedTargets tried(3.0);
+  tried.giveUp(kTarget, "nothing new was seen from there");
+  ASSERT_TRUE(tried.findRefusal(kTarget + Eigen::Vector3d(0.0, 2.0, 0.0)).has_value());
+  EXPECT_NE(tried.findRefusal(kTarget)->find("nothing new"), std::string::npos);
+  EXPECT_FALSE(tried.findRefusal(kTarget + Eigen::Vector3d(0.0, 4.0, 0.0)).has_value());
+}
+
 TEST(TriedTargets, NeedOneRefusalForABudgetThatOnlyShrinks) {
   TriedTargets tried(3.0);
   tried.note(kTarget, PathOutcome::kRejectedBudget, "no way home fits");
@@ -40,4 +48,4 @@ TEST(TriedTargets, NeedOneRefusalForABudgetThatOnlyShrinks) {
 }
 
 }  // namespace
-}  // namespace spelunk::planners::gbplanner
+}  // namespace spelunk::planners
