@@ -1,6 +1,9 @@
 #include "spelunk/planners/factory.h"
 
+#include <optional>
+
 #include "spelunk/common/contract.h"
+#include "spelunk/planners/baselines/frontier_planner.h"
 #include "spelunk/planners/gbplanner/gb_planner.h"
 #include "spelunk/planners/informed/informed_planner.h"
 
@@ -28,6 +31,12 @@ Params checkedParamsOf(const std::string& section, ParamTree& tree) {
   throw OutsideError("planner \"" + name + "\" is not known; choose one of: " + known);
 }
 
+std::optional<baselines::Preference> preferenceOf(const std::string& name) {
+  if (name == "frontier_nearest") return baselines::Preference::kNearest;
+  if (name == "frontier_utility") return baselines::Preference::kUtility;
+  return std::nullopt;
+}
+
 void requireFlying(const std::string& name, const RobotModel& robot) {
   if (kindOf(robot) != RobotKind::kAerial)
     throw OutsideError("planner \"" + name + "\" is for robots that fly; robot \"" + robot.name +
@@ -36,11 +45,15 @@ void requireFlying(const std::string& name, const RobotModel& robot) {
 
 }  // namespace
 
-std::vector<std::string> plannerNames() { return {"gbplanner", "informed"}; }
+std::vector<std::string> plannerNames() {
+  return {"gbplanner", "informed", "frontier_nearest", "frontier_utility"};
+}
 
 std::vector<ParamDescription> describePlanner(const std::string& name, ParamTree& tree) {
   if (name == "gbplanner") return describe(name, paramsOf<gbplanner::GbPlannerParams>(name, tree));
   if (name == "informed") return describe(name, paramsOf<informed::InformedParams>(name, tree));
+  if (preferenceOf(name))
+    return describe(name, paramsOf<baselines::FrontierPlannerParams>(name, tree));
   refuseUnknown(name);
 }
 
@@ -49,10 +62,18 @@ std::unique_ptr<ExplorationPlanner> makePlanner(const std::string& name, ParamTr
   if (name == "gbplanner")
     return std::make_unique<gbplanner::GbPlanner>(
         checkedParamsOf<gbplanner::GbPlannerParams>(name, tree), robot, resolution_m);
-  if (name != "informed") refuseUnknown(name);
-  requireFlying(name, robot);
-  return std::make_unique<informed::InformedPlanner>(
-      checkedParamsOf<informed::InformedParams>(name, tree), robot, resolution_m);
+  if (name == "informed") {
+    requireFlying(name, robot);
+    return std::make_unique<informed::InformedPlanner>(
+        checkedParamsOf<informed::InformedParams>(name, tree), robot, resolution_m);
+  }
+  if (const auto preference = preferenceOf(name)) {
+    requireFlying(name, robot);
+    return std::make_unique<baselines::FrontierPlanner>(
+        checkedParamsOf<baselines::FrontierPlannerParams>(name, tree), *preference, robot,
+        resolution_m);
+  }
+  refuseUnknown(name);
 }
 
 }  // namespace spelunk::planners

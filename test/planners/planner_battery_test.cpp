@@ -72,7 +72,8 @@ TEST_P(EveryPlanner, ExploresALongCorridorOnAFreePath) {
   const PlanResult result = planner_->plan(request_);
   expectFreePathFromPose(result);
   ASSERT_FALSE(result.path.empty());
-  EXPECT_GT(result.path.back().position.x(), 5.0) << "the unknown lies ahead";
+  EXPECT_GT(result.path.back().position.x(), request_.pose.position.x() + 0.5)
+      << "the unknown lies ahead";
   EXPECT_GT(result.stats.vertices, 1);
   EXPECT_GE(result.stats.best_gain, result.stats.gain_threshold * 0.25);
   EXPECT_GT(result.stats.total_ms, 0.0);
@@ -106,7 +107,8 @@ TEST_P(EveryPlanner, ReportsNothingToGainInAFullyMappedRoom) {
   knowAllOf(test::corridorWorld(12.0));
   const PlanResult result = planner_->plan(request_);
   EXPECT_EQ(result.status, PlanStatus::kNothingToGain) << result.reason;
-  EXPECT_EQ(result.reason, "nothing reachable above g_e is left");
+  EXPECT_FALSE(result.reason.empty());
+  EXPECT_TRUE(result.remaining.empty());
 }
 
 TEST_P(EveryPlanner, DoesNotCallExploredWhatItCouldNotLeave) {
@@ -205,10 +207,21 @@ TEST(PlannerFactory, ListsTheKnownNamesForAnUnknownOne) {
 }
 
 TEST(PlannerFactory, ReadsTheShippedParametersWithoutAProblem) {
+  for (const std::string& name : plannerNames()) {
+    ParamTree tree;
+    tree.addYamlFile(std::string(SPELUNK_SOURCE_DIR) + "/config/planners/" + name + ".yaml");
+    static_cast<void>(makePlanner(name, tree, smallRobot(), kResolution));
+    EXPECT_NO_THROW(tree.requireClean()) << name;
+  }
+}
+
+TEST(PlannerFactory, RefusesARobotWithLegsForPlannersThatFly) {
+  RobotModel walker = smallRobot();
+  walker.kind = "legged";
   ParamTree tree;
-  tree.addYamlFile(std::string(SPELUNK_SOURCE_DIR) + "/config/planners/gbplanner.yaml");
-  static_cast<void>(makePlanner("gbplanner", tree, smallRobot(), kResolution));
-  EXPECT_NO_THROW(tree.requireClean());
+  EXPECT_NO_THROW(static_cast<void>(makePlanner("gbplanner", tree, walker, kResolution)));
+  for (const char* name : {"informed", "frontier_nearest", "frontier_utility"})
+    EXPECT_THROW(static_cast<void>(makePlanner(name, tree, walker, kResolution)), OutsideError);
 }
 
 }  // namespace

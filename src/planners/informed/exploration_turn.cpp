@@ -10,12 +10,14 @@ using graph::VertexId;
 
 ExplorationTurn::ExplorationTurn(GraphGrowth& growth, const FrontierSurvey& survey,
                                  CandidateJudge& judge, Rng rng,
-                                 std::function<bool(const Candidate&)> fits_budget)
+                                 std::function<bool(const Candidate&)> fits_budget,
+                                 std::function<bool(graph::VertexId)> scout)
     : growth_(growth),
       survey_(survey),
       judge_(judge),
       rng_(rng),
-      fits_budget_(std::move(fits_budget)) {}
+      fits_budget_(std::move(fits_budget)),
+      scout_(std::move(scout)) {}
 
 std::optional<Choice> ExplorationTurn::chooseFrom(VertexId current) {
   judge_.way_to_vertex = [](VertexId) { return graph::Polyline{}; };
@@ -28,8 +30,11 @@ std::optional<Choice> ExplorationTurn::chooseFrom(VertexId current) {
     if (!way.empty() && (here - judge_.root).norm() > 0.0) way.insert(way.begin(), judge_.root);
     return way;
   };
-  for (auto draws = nextRanked(current); !draws.empty(); draws = nextRanked(current))
-    if (auto candidate = tryAll(draws)) return Choice{std::move(*candidate), PathKind::kReposition};
+  do {
+    for (auto draws = nextRanked(current); !draws.empty(); draws = nextRanked(current))
+      if (auto candidate = tryAll(draws))
+        return Choice{std::move(*candidate), PathKind::kReposition};
+  } while (scout_(current));
   return std::nullopt;
 }
 

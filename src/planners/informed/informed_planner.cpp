@@ -156,11 +156,12 @@ struct InformedPlanner::Search {
     const Region region =
         regionAt(*request.map, {root, request.pose.yaw}, params.branch_distance_m);
     CandidateJudge judge{request, planner.view_, params, planner.tried_, space, root, region, {}};
-    ExplorationTurn turn(planner.growth_, survey, judge, request.rng.fork("sampler"),
-                         [this](const Candidate& candidate) {
-                           return fitsBudget(graph::lengthOf(candidate.way),
-                                             candidate.sample.place);
-                         });
+    ExplorationTurn turn(
+        planner.growth_, survey, judge, request.rng.fork("sampler"),
+        [this](const Candidate& candidate) {
+          return fitsBudget(graph::lengthOf(candidate.way), candidate.sample.place);
+        },
+        [this](VertexId from) { return scout(from); });
     std::optional<Choice> choice = turn.chooseFrom(current);
     if (!choice && reopenClosed()) choice = turn.chooseFrom(current);
     turn.fill(result.stats);
@@ -175,12 +176,20 @@ struct InformedPlanner::Search {
                     std::to_string(std::lround(lengthOf(result.path))) + " m away";
   }
 
+  [[nodiscard]] bool scout(VertexId from) {
+    const int found = planner.scouting_.scout(from, params.ranked_vertices, planner.growth_,
+                                              planner.view_, request, space);
+    if (found > 0) survey.refresh(planner.growth_.graph());
+    return found > 0;
+  }
+
   /// What was closed while less was known is looked at once more before all is called explored.
   [[nodiscard]] bool reopenClosed() {
     const std::size_t known = request.map->freeVoxels() + request.map->occupiedVoxels();
     if (known == planner.reopened_at_voxels_) return false;
     planner.reopened_at_voxels_ = known;
-    bool is_any_open = false;
+    bool is_any_open = planner.scouting_.barren() > 0;
+    planner.scouting_.forget();
     ReachabilityGraph& graph = planner.growth_.graph();
     for (const VertexId vertex : graph.vertices()) {
       VertexLabel& label = graph.update(vertex);
@@ -279,6 +288,7 @@ InformedPlanner::InformedPlanner(const InformedParams& params, const RobotModel&
       view_(robot, resolution_m, viewParams(params)),
       navigator_(navigationParams(params)),
       growth_(params),
+      scouting_(params),
       tried_(params.tried_radius_m) {
   require(kindOf(robot) == RobotKind::kAerial, "InformedPlanner: for robots that fly");
 }
@@ -319,6 +329,7 @@ void InformedPlanner::restore(const PlannerGraph& graph) {
 void InformedPlanner::reset() {
   view_.forget();
   growth_ = GraphGrowth(params_);
+  scouting_ = Scouting(params_);
   tried_ = TriedTargets(params_.tried_radius_m);
   proposal_.reset();
   checked_map_.reset();

@@ -21,11 +21,12 @@ struct Choice {
 class ExplorationTurn {
  public:
   ExplorationTurn(GraphGrowth& growth, const FrontierSurvey& survey, CandidateJudge& judge, Rng rng,
-                  std::function<bool(const Candidate&)> fits_budget);
+                  std::function<bool(const Candidate&)> fits_budget,
+                  std::function<bool(graph::VertexId)> scout);
 
   /// The best affordable candidate: of the neighbourhood of `current` if that has any, else of the
-  /// nearest vertices that have. Vertices all of whose frontier was looked at in vain are closed
-  /// with the reason. None if nothing is left.
+  /// nearest vertices that have, else of vertices that `scout` adds. Vertices all of whose frontier
+  /// was looked at in vain are closed with the reason. None if nothing is left.
   [[nodiscard]] std::optional<Choice> chooseFrom(graph::VertexId current);
 
   [[nodiscard]] int samples() const { return samples_; }
@@ -49,6 +50,7 @@ class ExplorationTurn {
   CandidateJudge& judge_;
   Rng rng_;
   std::function<bool(const Candidate&)> fits_budget_;
+  std::function<bool(graph::VertexId)> scout_;
   std::vector<Candidate> seen_;
   int round_ = 0;
   int samples_ = 0;

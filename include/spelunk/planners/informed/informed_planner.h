@@ -9,6 +9,7 @@
 #include "spelunk/planners/exploration_planner.h"
 #include "spelunk/planners/informed/graph_growth.h"
 #include "spelunk/planners/informed/informed_params.h"
+#include "spelunk/planners/informed/scouting.h"
 #include "spelunk/planners/shared/frontier_view.h"
 #include "spelunk/planners/shared/tried_targets.h"
 
@@ -50,6 +51,7 @@ class InformedPlanner final : public ExplorationPlanner {
   FrontierView view_;
   navigation::Navigator navigator_;
   GraphGrowth growth_;
+  Scouting scouting_;
   TriedTargets tried_;
   std::optional<Proposal> proposal_;
   std::shared_ptr<const map::FrozenMap> checked_map_;
