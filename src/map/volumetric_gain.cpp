@@ -1,9 +1,12 @@
 #include "spelunk/map/volumetric_gain.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <mutex>
+#include <optional>
 
+#include "ray_tree.h"
 #include "spelunk/common/contract.h"
 #include "template_rays.h"
 #include "voxel_key.h"
@@ -18,7 +21,19 @@ constexpr auto kUnknownCell = static_cast<std::uint8_t>(Occupancy::kUnknown);
 struct CellOffsets {
   VoxelIndex window_size;
   std::vector<std::vector<std::int32_t>> sensors;
+  std::vector<std::vector<std::int32_t>> trees;  ///< By node, where distinct voxels are counted.
 };
+
+std::vector<std::int32_t> offsetsOf(const std::vector<TemplateRays::Step>& steps,
+                                    const VoxelIndex& window_size) {
+  const std::int64_t row = window_size.x();
+  const std::int64_t plane = row * window_size.y();
+  std::vector<std::int32_t> offsets;
+  offsets.reserve(steps.size());
+  for (const TemplateRays::Step& step : steps)
+    offsets.push_back(static_cast<std::int32_t>(step[0] + row * step[1] + plane * step[2]));
+  return offsets;
+}
 
 /// Voxels of the window whose centres lie in `bounds`, relative to `start`.
 TemplateRays::Range reachableFrom(const VoxelIndex& start, const LocalWindow& window,
@@ -49,16 +64,17 @@ class SeenCells {
  public:
   explicit SeenCells(std::size_t cells) {
     if (words().size() < cells / 64 + 1) words().resize(cells / 64 + 1, 0);
+    words_ = words().data();
   }
   ~SeenCells() {
-    for (const std::size_t word : touched_) words()[word] = 0;
+    for (const std::size_t word : touched_) words_[word] = 0;
   }
   SeenCells(const SeenCells&) = delete;
   SeenCells& operator=(const SeenCells&) = delete;
 
   /// Whether the cell is new; it is not the next time.
   bool add(std::size_t cell) {
-    std::uint64_t& word = words()[cell / 64];
+    std::uint64_t& word = words_[cell / 64];
     const std::uint64_t bit = std::uint64_t{1} << (cell % 64);
     if ((word & bit) != 0) return false;
     if (word == 0) touched_.push_back(cell / 64);
@@ -71,6 +87,7 @@ class SeenCells {
     thread_local std::vector<std::uint64_t> words;
     return words;
   }
+  std::uint64_t* words_ = nullptr;
   std::vector<std::size_t> touched_;
 };
 
@@ -143,6 +160,30 @@ void countRayOnce(const std::uint8_t* cells, std::size_t start, const std::int32
   }
 }
 
+/// The same for all rays of a tree at once; nodes outside `reachable` end their rays.
+void countTreeOnce(const RayTree& tree, const std::vector<std::int32_t>& offsets,
+                   const TemplateRays::Range& reachable, const std::uint8_t* cells,
+                   std::size_t start, SeenCells& seen, VolumetricGain& gain) {
+  const bool is_all_reachable =
+      reachable.contains(tree.extent().first) && reachable.contains(tree.extent().last);
+  const std::uint32_t* after = tree.after().data();
+  std::array<int, 3> counts{};
+  for (std::uint32_t i = 0; i < offsets.size();) {
+    const TemplateRays::Step& step = tree.steps()[i];
+    if (!is_all_reachable && !reachable.contains({step[0], step[1], step[2]})) {
+      i = after[i];
+      continue;
+    }
+    const std::size_t at = start + static_cast<std::size_t>(static_cast<std::int64_t>(offsets[i]));
+    const std::uint8_t cell = cells[at];
+    if (seen.add(at)) ++counts[cell];
+    i = cell == kOccupiedCell ? after[i] : i + 1;
+  }
+  gain.unknown_voxels += counts[kUnknownCell];
+  gain.free_voxels += counts[static_cast<std::size_t>(Occupancy::kFree)];
+  gain.occupied_voxels += counts[kOccupiedCell];
+}
+
 }  // namespace
 
 struct GainEvaluator::Impl {
@@ -155,7 +196,8 @@ struct GainEvaluator::Impl {
   double reach_m = 0.0;
   GainCounting counting = GainCounting::kDistinct;
   std::vector<TemplateRays> sensors;
-  std::mutex mutex;  ///< Guards `last_offsets` only.
+  std::vector<std::optional<RayTree>> trees;  ///< Where distinct voxels are counted full circle.
+  std::mutex mutex;                           ///< Guards `last_offsets` only.
   std::shared_ptr<const CellOffsets> last_offsets;
 };
 
@@ -165,14 +207,11 @@ std::shared_ptr<const CellOffsets> GainEvaluator::Impl::offsetsFor(const VoxelIn
     return last_offsets;
   auto offsets = std::make_shared<CellOffsets>();
   offsets->window_size = window_size;
-  const std::int64_t row = window_size.x();
-  const std::int64_t plane = row * window_size.y();
-  for (const TemplateRays& sensor : sensors) {
-    std::vector<std::int32_t>& list = offsets->sensors.emplace_back();
-    list.reserve(sensor.steps().size());
-    for (const TemplateRays::Step& step : sensor.steps())
-      list.push_back(static_cast<std::int32_t>(step[0] + row * step[1] + plane * step[2]));
-  }
+  for (const TemplateRays& sensor : sensors)
+    offsets->sensors.push_back(offsetsOf(sensor.steps(), window_size));
+  for (const std::optional<RayTree>& tree : trees)
+    offsets->trees.push_back(tree ? offsetsOf(tree->steps(), window_size)
+                                  : std::vector<std::int32_t>{});
   last_offsets = std::move(offsets);
   return last_offsets;
 }
@@ -187,6 +226,9 @@ void GainEvaluator::Impl::countSensor(std::size_t sensor, const LocalWindow& win
   const TemplateRays& rays = sensors[sensor];
   const TemplateRays::Heading heading = rays.headingAt(yaw);
   const std::size_t start_cell = window.offsetOf(start - window.origin());
+  if (seen != nullptr && trees[sensor])
+    return countTreeOnce(*trees[sensor], offsets.trees[sensor], reachable, window.cells().data(),
+                         start_cell, *seen, gain);
   std::size_t number = heading.first;
   for (std::size_t i = 0; i < heading.count; ++i) {
     const TemplateRays::Ray& ray = rays.rays()[number];
@@ -219,7 +261,10 @@ GainEvaluator::GainEvaluator(const std::vector<SensorModel>& sensors, double res
   impl_->resolution_m = resolution_m;
   impl_->counting = counting;
   for (const SensorModel& sensor : sensors) {
-    impl_->sensors.emplace_back(sensor, resolution_m);
+    const TemplateRays& rays = impl_->sensors.emplace_back(sensor, resolution_m);
+    const bool is_circle = rays.headingAt(0.0).count == rays.rays().size();
+    impl_->trees.emplace_back();
+    if (counting == GainCounting::kDistinct && is_circle) impl_->trees.back().emplace(rays);
     impl_->reach_m =
         std::max(impl_->reach_m, sensor.gain_range_m + sensor.mount_m.norm() + resolution_m);
   }
