@@ -40,6 +40,24 @@ struct KnownRoute {
   navigation::PathMonitor monitor;
 };
 
+/// Why a new way to a point is needed.
+enum class ReplanCause { kNone, kObstacle, kDeviation };
+
+/// The flight to a point that was asked for.
+struct GoToTask {
+  NavigationJob job;  ///< Of the newest plan.
+  Path plan;          ///< From where the robot was then to the point, unknown space included.
+  std::optional<navigation::PathMonitor> monitor;
+  double taken_up_m = 0.0;  ///< The plan's length up to which it was checked and flown.
+  ReplanCause cause = ReplanCause::kNone;
+  std::vector<NoGoZone> unseen;  ///< Places on earlier plans that did not come into view.
+  Eigen::Vector3d replanned_at = Eigen::Vector3d::Zero();
+  int fruitless = 0;        ///< Replans since the robot last got somewhere.
+  bool is_suspect = false;  ///< A voxel on the plan became occupied since the last look.
+  double next_look_s = 0.0;
+  double stopped_s = 0.0;  ///< When the last leg ended.
+};
+
 struct WayHome {
   Path path;
   double travel_s = 0.0;        ///< Not pessimistic.
@@ -47,7 +65,8 @@ struct WayHome {
 };
 
 /// State and steps of the mission. Steps that belong together share a .cpp:
-/// mission_inputs, mission_goto, mission_cycle, mission_ground, mission_plans, mission_home.
+/// mission_inputs, mission_goto, mission_goto_plans, mission_cycle, mission_ground, mission_plans,
+/// mission_home.
 constexpr double kBodyShare = 0.5;  // of the safety box: returns from there are the robot itself
 
 struct Mission::Impl {
@@ -71,10 +90,24 @@ struct Mission::Impl {
 
   void takeOff();
 
-  // --- Paths from outside (mission_goto.cpp).
-  Answer goTo(const Path& path);
-  [[nodiscard]] std::string goToProblem(const Path& path);
+  // --- Points from outside (mission_goto.cpp, mission_goto_plans.cpp).
+  [[nodiscard]] std::optional<navigation::NavigationQuery> goToQuery(const Eigen::Vector3d& point);
+  Answer goTo(const navigation::NavigationParams& params, const navigation::NavigationQuery& query,
+              const navigation::NavigationAnswer& answer);
+  [[nodiscard]] std::string goToProblem(const navigation::NavigationQuery& query,
+                                        const navigation::NavigationAnswer& answer);
   void stepGoTo();
+  void endGoTo(GoToOutcome outcome, const std::string& why);
+  void noteAbortedGoTo();
+  void lookAhead();
+  void takeUpMore();
+  [[nodiscard]] bool isPlanBlocked();
+  [[nodiscard]] std::string flyPlan(double from_m, double to_m);
+  void replan();
+  void noteUnseen();
+  void askForWay();
+  void acceptGoTo(const navigation::NavigationAnswer& answer);
+  void installPlan(const navigation::NavigationAnswer& answer);
   [[nodiscard]] std::optional<planners::PlanRequest> requestHere(double now_s);
 
   // --- The cycle (mission_cycle.cpp).
@@ -152,6 +185,7 @@ struct Mission::Impl {
   std::optional<HomeGraph> home_graph;
   std::optional<PathExecution> active;
   std::optional<KnownRoute> route;
+  std::optional<GoToTask> go_to;
 
   // --- State.
   MissionState state = MissionState::kIdle;

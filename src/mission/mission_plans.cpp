@@ -108,6 +108,8 @@ std::optional<Command> Mission::Impl::accept(const PlanOutcome& outcome, double 
     if (goal == Goal::kExplore) acceptExploration(job, outcome);
   } else if (goal == Goal::kHome) {
     acceptWayHome(job, outcome.home);
+  } else if (goal == Goal::kGoTo) {
+    acceptGoTo(outcome.go_to);
   }
   return takeCommand();
 }

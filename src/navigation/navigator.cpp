@@ -22,6 +22,9 @@ struct Attempt {
 
 /// Unknown goals may lie outside everything seen; ways to them need room around the straight line.
 constexpr double kRoomAround_m = 5.0;
+/// Of the draws where trees may grow in unknown space, so many lie in known space: draws from the
+/// whole box hardly ever lead along a gallery.
+constexpr double kKnownShare = 0.5;
 
 AxisAlignedBox grown(const AxisAlignedBox& box, double by_m) {
   return {box.min.array() - by_m, box.max.array() + by_m};
@@ -126,9 +129,11 @@ struct Query {
     task.iterations = iterations;
     task.time_limit_s = secondsLeft();
     std::optional<map::FreeVoxels> known;
-    if (method == Method::kAdaptive && attempt.unknown == Unknown::kClosed)
-      known.emplace(asked.map, task.region);
-    task.draw = [&](Rng& rng) { return drawn(known, task.region, rng); };
+    if (method == Method::kAdaptive) known.emplace(asked.map, task.region);
+    const double known_share = attempt.unknown == Unknown::kClosed ? 1.0 : kKnownShare;
+    task.draw = [&](Rng& rng) {
+      return drawn(known && rng.uniform() < known_share ? &*known : nullptr, task.region, rng);
+    };
     TreeResult found =
         growTrees(task, space, asked.rng.fork("trees/" + std::to_string(searches++)));
     answer.iterations += found.iterations;
@@ -138,9 +143,9 @@ struct Query {
     return true;
   }
 
-  static Eigen::Vector3d drawn(const std::optional<map::FreeVoxels>& known,
-                               const AxisAlignedBox& region, Rng& rng) {
-    if (known)
+  static Eigen::Vector3d drawn(const map::FreeVoxels* known, const AxisAlignedBox& region,
+                               Rng& rng) {
+    if (known != nullptr)
       if (const auto point = known->draw(rng)) return *point;
     const double x = rng.uniform(region.min.x(), region.max.x());
     const double y = rng.uniform(region.min.y(), region.max.y());

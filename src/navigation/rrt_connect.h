@@ -13,7 +13,7 @@ struct TreeTask {
   Eigen::Vector3d goal = Eigen::Vector3d::Zero();
   AxisAlignedBox region;  ///< Finite; holds start and goal.
   std::function<Eigen::Vector3d(Rng&)> draw;
-  double extension_m = 3.0;
+  double extension_m = 1.0;
   int iterations = 20000;
   double time_limit_s = 0.0;  ///< May be infinite.
 };

@@ -36,9 +36,9 @@ void layOut(const ShaftsParams& params, WorldPlan& plan) {
   plan.halls.push_back({Eigen::Vector3d::Zero(), shaft, params.height_m});
   plan.halls.push_back({far, shaft, params.height_m});
   Passage passage;
+  const Eigen::Vector3d aside(0.0, params.bend_m, 0.0);
   for (const Eigen::Vector3d& floor :
-       {Eigen::Vector3d(0.0, 0.0, 0.0), Eigen::Vector3d(0.3 * far.x(), params.bend_m, 0.0),
-        Eigen::Vector3d(0.7 * far.x(), params.bend_m, 0.0), far})
+       {Eigen::Vector3d(0.0, 0.0, 0.0), aside, Eigen::Vector3d(far + aside), far})
     passage.stations.push_back({floor, params.passage_width_m, params.passage_height_m});
   plan.passages.push_back(passage);
 }

@@ -21,7 +21,7 @@ namespace spelunk::navigation {
 struct NavigationParams {
   std::string method = "adaptive";
   double safe_distance_m = 0.2;
-  double extension_m = 3.0;
+  double extension_m = 1.0;
   int iterations = 20000;
   double planning_time_s = 10.0;
 
@@ -102,9 +102,11 @@ struct NavigationAnswer {
 /// known, from samples drawn inside that space; through free and unknown space if it is not. States
 /// and steps that come nearer to an obstacle than the safe distance are not added, within 1 m of
 /// start and goal apart.
-/// Differs from paper: where no path keeps the safe distance, the robot's own box decides (it holds
-/// a margin already); where known space holds no path to a known goal, unknown space may be crossed
-/// after all, because a frontier seen through a gap would else end a mission.
+/// Differs from paper: in the second case half of the draws still come from known space, without
+/// which a tree hardly finds out of a narrow place; where no path keeps the safe distance, the
+/// robot's own box decides (it holds a margin already); where known space holds no path to a known
+/// goal, unknown space may be crossed after all, because a frontier seen through a gap would else
+/// end a mission.
 ///
 /// "plain" is R-NAV, what the paper compares with: RRT-Connect through free and unknown space alike
 /// with samples from the whole box around what is known, start and goal, without safe distance.

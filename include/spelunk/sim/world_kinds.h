@@ -219,13 +219,14 @@ struct MazeParams {
   }
 };
 
-/// Kind "shafts": two upright shafts joined by a passage at their feet that bends aside, so that no
-/// straight line leads from one to the other. The start belongs into the first, at the origin.
+/// Kind "shafts": two upright shafts joined by a passage at their feet that goes aside, along and
+/// back, so that no straight line leads from one to the other. The start belongs into the first, at
+/// the origin.
 struct ShaftsParams {
   double shaft_m = 2.5;
   double height_m = 4.0;
-  double distance_m = 12.0;
-  double bend_m = 3.0;
+  double distance_m = 9.0;
+  double bend_m = 3.2;
   double passage_width_m = 2.2;
   double passage_height_m = 2.0;
 
@@ -234,7 +235,7 @@ struct ShaftsParams {
     field("shaft_m", shaft_m, Bounds{1.8, 20.0}, "edge of both shafts");
     field("height_m", height_m, Bounds{2.0, 100.0}, "height of both shafts");
     field("distance_m", distance_m, Bounds{5.0, 200.0}, "from shaft to shaft along x");
-    field("bend_m", bend_m, Bounds{0.0, 50.0}, "the passage's middle lies so far aside");
+    field("bend_m", bend_m, Bounds{0.0, 50.0}, "the passage goes so far aside");
     field("passage_width_m", passage_width_m, Bounds{1.8, 20.0}, "width of the passage");
     field("passage_height_m", passage_height_m, Bounds{1.6, 20.0}, "height of the passage");
   }
