@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "spelunk/planners/shared/visits.h"
+
 namespace spelunk::planners {
 namespace {
 
@@ -45,6 +47,30 @@ TEST(TriedTargets, NeedOneRefusalForABudgetThatOnlyShrinks) {
   TriedTargets tried(3.0);
   tried.note(kTarget, PathOutcome::kRejectedBudget, "no way home fits");
   EXPECT_TRUE(tried.findRefusal(kTarget).has_value());
+}
+
+TEST(Visits, AreMadeWhenTheRobotComesByAndNotBefore) {
+  Visits visits;
+  visits.expect({kTarget, kTarget, 30.0, 100.0});
+  PlanRequest request;
+  request.pose.position = kTarget;  // the next path begins there, the robot is still on its way
+  request.last_outcome = PathOutcome::kReplaced;
+  request.trail = {{99.0, {kTarget, 0.0}}, {105.0, {kTarget - Eigen::Vector3d(2, 0, 0), 0.0}}};
+  EXPECT_TRUE(visits.takeMade(request).empty());
+  request.trail.push_back({108.0, {kTarget + Eigen::Vector3d(0, 0.4, 0), 0.0}});
+  const auto made = visits.takeMade(request);
+  ASSERT_EQ(made.size(), 1U);
+  EXPECT_EQ(made[0].gain_m3, 30.0);
+  EXPECT_TRUE(visits.takeMade(request).empty()) << "told twice";
+}
+
+TEST(Visits, AreMadeWhenTheRobotStandsThere) {
+  Visits visits;
+  visits.expect({kTarget, kTarget, 30.0, 100.0});
+  PlanRequest request;
+  request.pose.position = kTarget;
+  request.last_outcome = PathOutcome::kReached;
+  EXPECT_EQ(visits.takeMade(request).size(), 1U);
 }
 
 }  // namespace

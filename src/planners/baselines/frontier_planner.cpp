@@ -98,19 +98,20 @@ struct FrontierPlanner::Search {
   }
 
   /// Whether a target is still worth what it was when it was chosen.
-  [[nodiscard]] bool keepsPromise(const Target& target) const {
-    if (!ranksByUtility()) return isCluster(target.voxel);
-    const double gain_m3 = gainAt(target.path.back().position);
-    return gain_m3 >= std::max(kShareLeft * target.gain_m3, params.gain_min_m3);
+  [[nodiscard]] bool keepsPromise(const Eigen::Vector3d& voxel, const Eigen::Vector3d& place,
+                                  double promised_m3) const {
+    if (!ranksByUtility()) return isCluster(voxel);
+    return gainAt(place) >= std::max(kShareLeft * promised_m3, params.gain_min_m3);
   }
 
   void noteOutcome() {
     previous = std::exchange(planner.target_, std::nullopt);
-    if (!previous) return;
-    const Eigen::Vector3d& place = previous->path.back().position;
-    planner.tried_.note(place, request.last_outcome, request.last_reason);
-    if ((place - request.pose.position).norm() <= kReached_m && keepsPromise(*previous))
-      planner.tried_.giveUp(place, "been there: what it promised cannot be seen from it");
+    if (previous)
+      planner.tried_.note(previous->path.back().position, request.last_outcome,
+                          request.last_reason);
+    for (const Visit& visit : planner.visits_.takeMade(request))
+      if (keepsPromise(visit.voxel, visit.place, visit.gain_m3))
+        planner.tried_.giveUp(visit.place, "been there: what it promised cannot be seen from it");
   }
 
   [[nodiscard]] bool fliesOn() {
@@ -119,7 +120,9 @@ struct FrontierPlanner::Search {
     Path rest = slice(previous->path, at.arc_m, lengthOf(previous->path));
     constexpr double kBeside_m = 0.3;
     if (at.distance_m > kBeside_m || lengthOf(rest) < kReached_m) return false;
-    if (!keepsPromise(*previous) || !fitsBudget(lengthOf(rest), rest.back().position)) return false;
+    if (!keepsPromise(previous->voxel, rest.back().position, previous->gain_m3) ||
+        !fitsBudget(lengthOf(rest), rest.back().position))
+      return false;
     rest.front() = request.pose;
     if (!space.isFree(toLine(rest))) return false;
     result.stats.vertices = static_cast<int>(rest.size());
@@ -217,6 +220,8 @@ struct FrontierPlanner::Search {
       for (const Eigen::Vector3d& vertex : candidate.trees.vertices)
         planner.search_layer_.vertices.push_back({vertex, 0.0, false});
       propose({candidate.voxel, std::move(path), candidate.gain_m3});
+      planner.visits_.expect(
+          {candidate.voxel, candidate.way.back(), candidate.gain_m3, request.time_s});
       result.reason =
           "to a frontier " + std::to_string(std::lround(lengthOf(result.path))) + " m away";
       return;
@@ -326,6 +331,7 @@ void FrontierPlanner::restore(const PlannerGraph& /*graph*/) {}
 void FrontierPlanner::reset() {
   view_.forget();
   tried_ = TriedTargets(params_.tried_radius_m);
+  visits_ = {};
   target_.reset();
   search_layer_ = {};
   samples_layer_ = {};

@@ -52,13 +52,21 @@ std::vector<Candidate> CandidateJudge::judge(const std::vector<FrontierSample>& 
   for (const FrontierSample& sample : samples) {
     Candidate candidate{sample, {}, 0.0, 0.0, {}};
     UtilityTerms terms;
-    if (!isWorthIt(candidate, terms.entropy_end_bits, refusals)) continue;
+    if (!isWorthIt(candidate, terms.entropy_end_bits, refusals)) {
+      refusals.vain.push_back(sample.place);
+      continue;
+    }
     if (!findWay(candidate)) {
       ++refusals.unreachable;
+      refusals.vain.push_back(sample.place);
+      continue;
+    }
+    terms.length_m = graph::lengthOf(candidate.way);
+    if (terms.length_m > way_max_m) {
+      ++refusals.far;
       continue;
     }
     terms.entropy_way_bits = entropyAlong(candidate.way, view, request.bounds, params);
-    terms.length_m = graph::lengthOf(candidate.way);
     terms.clearance_m =
         FrontierView::clearanceAt(*request.map, sample.place, params.clearance_max_m);
     terms.region = region;

@@ -2,11 +2,18 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 namespace spelunk::planners::informed {
 
 using graph::VertexId;
+
+namespace {
+
+constexpr double kNeighbourWay = 3.0;  // times d_max: frontier behind a wall is no neighbour
+
+}  // namespace
 
 ExplorationTurn::ExplorationTurn(GraphGrowth& growth, const FrontierSurvey& survey,
                                  CandidateJudge& judge, Rng rng,
@@ -21,8 +28,10 @@ ExplorationTurn::ExplorationTurn(GraphGrowth& growth, const FrontierSurvey& surv
 
 std::optional<Choice> ExplorationTurn::chooseFrom(VertexId current) {
   judge_.way_to_vertex = [](VertexId) { return graph::Polyline{}; };
+  judge_.way_max_m = kNeighbourWay * judge_.params.range_m;
   if (auto candidate = tryAll(neighbourhoodOf(current)))
     return Choice{std::move(*candidate), PathKind::kLocal};
+  judge_.way_max_m = std::numeric_limits<double>::infinity();
   const Eigen::Vector3d& here = growth_.graph().graph().position(current);
   judge_.way_to_vertex = [&, current](VertexId vertex) {
     if (vertex == current) return graph::Polyline{};
@@ -77,7 +86,7 @@ std::optional<Candidate> ExplorationTurn::tryAll(const std::vector<Draw>& draws)
 
 std::optional<Candidate> ExplorationTurn::tryOnce(const std::vector<Draw>& draws) {
   FrontierSampler sampler(judge_.view.credible(), judge_.space.free(), judge_.params,
-                          rng_.fork("round/" + std::to_string(round_++)));
+                          rng_.fork("round/" + std::to_string(round_++)), vain_);
   std::vector<FrontierSample> samples;
   for (const Draw& draw : draws) {
     survey_.measure(growth_.graph(), draw.vertex);
@@ -90,6 +99,7 @@ std::optional<Candidate> ExplorationTurn::tryOnce(const std::vector<Draw>& draws
   last_refusals_ = {};
   last_over_budget_ = 0;
   std::vector<Candidate> candidates = judge_.judge(samples, last_refusals_);
+  vain_.insert(vain_.end(), last_refusals_.vain.begin(), last_refusals_.vain.end());
   seen_.insert(seen_.end(), candidates.begin(), candidates.end());
   for (Candidate& candidate : candidates) {
     if (fits_budget_(candidate)) return std::move(candidate);
@@ -99,6 +109,7 @@ std::optional<Candidate> ExplorationTurn::tryOnce(const std::vector<Draw>& draws
 }
 
 void ExplorationTurn::close(VertexId vertex, const Refusals& refusals, int out_of_budget) {
+  if (refusals.far > 0) return;
   VertexLabel& label = growth_.graph().update(vertex);
   over_budget_ += out_of_budget;
   label.is_explored = true;
@@ -111,7 +122,7 @@ void ExplorationTurn::close(VertexId vertex, const Refusals& refusals, int out_o
     label.closed_because = "no free way leads to its frontier";
   else if (refusals.tried > 0)
     label.closed_because = refusals.tried_why;
-  else if (refusals.gainless > 0)
+  else if (refusals.gainless > 0 || !vain_.empty())
     label.closed_because = "too little can be seen from beside its frontier";
   else
     label.closed_because = "no place beside its frontier is free for the robot";

@@ -30,8 +30,14 @@ Middle middleOf(const std::vector<FrontierVoxel>& frontier) {
 }  // namespace
 
 FrontierSampler::FrontierSampler(const map::FrozenMap& map, const FreeSpace& space,
-                                 const InformedParams& params, Rng rng)
-    : map_(map), space_(space), params_(params), places_(kPlaceReach_m, kPlaceStep_m), rng_(rng) {}
+                                 const InformedParams& params, Rng rng,
+                                 std::vector<Eigen::Vector3d> apart_from)
+    : map_(map),
+      space_(space),
+      params_(params),
+      places_(kPlaceReach_m, kPlaceStep_m),
+      rng_(rng),
+      chosen_(std::move(apart_from)) {}
 
 /// Weighted order without repetition: the key of an item is an exponential of its rate (Efraimidis
 /// and Spirakis, 2006).

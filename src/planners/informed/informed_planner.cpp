@@ -72,14 +72,12 @@ struct InformedPlanner::Search {
   /// A target that was reached and still promises what it promised keeps its secret for good.
   void noteOutcome() {
     previous = std::exchange(planner.proposal_, std::nullopt);
-    if (!previous) return;
-    const Eigen::Vector3d& target = previous->path.back().position;
-    planner.tried_.note(target, request.last_outcome, request.last_reason);
-    constexpr double kReached_m = 0.5;
-    constexpr double kShareLeft = 0.5;
-    if ((target - request.pose.position).norm() > kReached_m) return;
-    if (gainAt(target) >= std::max(kShareLeft * previous->gain_m3, params.gain_min_m3))
-      planner.tried_.giveUp(target, "been there: what it promised cannot be seen from it");
+    if (previous)
+      planner.tried_.note(previous->path.back().position, request.last_outcome,
+                          request.last_reason);
+    for (const Visit& visit : planner.visits_.takeMade(request))
+      if (gainAt(visit.place) >= std::max(kShareLeft * visit.gain_m3, params.gain_min_m3))
+        planner.tried_.giveUp(visit.place, "been there: what it promised cannot be seen from it");
   }
 
   [[nodiscard]] double gainAt(const Eigen::Vector3d& place) const {
@@ -110,21 +108,21 @@ struct InformedPlanner::Search {
     if (at.distance_m > kBeside_m || lengthOf(rest) < kNearlyThere_m) return false;
     rest.front() = request.pose;
     const double gain_m3 = gainAt(rest.back().position);
-    if (gain_m3 < std::max(0.5 * previous->gain_m3, params.gain_min_m3)) return false;
+    if (gain_m3 < std::max(kShareLeft * previous->gain_m3, params.gain_min_m3)) return false;
     if (!space.isFree(toLine(rest)) || !fitsBudget(lengthOf(rest), rest.back().position))
       return false;
     result.stats.vertices = static_cast<int>(rest.size());
-    propose(std::move(rest), PathKind::kLocal, gain_m3);
+    propose({std::move(rest), PathKind::kLocal, previous->gain_m3, previous->voxel});
     result.reason = "on to the frontier sample of before";
     return true;
   }
 
-  void propose(Path path, PathKind kind, double gain_m3) {
+  void propose(Proposal proposal) {
     result.status = PlanStatus::kOk;
-    result.kind = kind;
-    result.path = std::move(path);
-    result.stats.best_gain = gain_m3;
-    planner.proposal_ = Proposal{result.path, kind, gain_m3};
+    result.kind = proposal.kind;
+    result.path = proposal.path;
+    result.stats.best_gain = proposal.gain_m3;
+    planner.proposal_ = std::move(proposal);
   }
 
   /// The path of a line that begins at the root; first out of what blocks the start, if anything.
@@ -145,6 +143,7 @@ struct InformedPlanner::Search {
     const double home_m = graph.cheapestPath(current, ReachabilityGraph::home()).length;
     if (fits(2.0 * length_m + home_m)) return true;
     if (!fits(length_m + (request.home.position - end).norm())) return false;
+    if (++ways_home > kWaysHomeMax) return false;
     const auto answer = space.navigate(end, request.home.position, "home from a sample",
                                        navigation::TreeDetail::kLeaveOut);
     return answer.status == navigation::NavigationStatus::kOk &&
@@ -155,7 +154,7 @@ struct InformedPlanner::Search {
     const Stopwatch watch;
     const Region region =
         regionAt(*request.map, {root, request.pose.yaw}, params.branch_distance_m);
-    CandidateJudge judge{request, planner.view_, params, planner.tried_, space, root, region, {}};
+    CandidateJudge judge{request, planner.view_, params, planner.tried_, space, root, region, 0.0, {}};
     ExplorationTurn turn(
         planner.growth_, survey, judge, request.rng.fork("sampler"),
         [this](const Candidate& candidate) {
@@ -170,7 +169,10 @@ struct InformedPlanner::Search {
     if (!choice) return reportNothingLeft(turn);
     planner.search_layer_ = layerOf(choice->candidate.trees);
     result.stats.vertices += static_cast<int>(choice->candidate.trees.vertices.size());
-    propose(startingAtPose(choice->candidate.way), choice->kind, choice->candidate.gain_m3);
+    propose({startingAtPose(choice->candidate.way), choice->kind, choice->candidate.gain_m3,
+             choice->candidate.sample.voxel});
+    planner.visits_.expect({choice->candidate.sample.voxel, choice->candidate.sample.place,
+                            choice->candidate.gain_m3, request.time_s});
     result.reason = std::string("to a frontier sample in a ") + toText(region) + ", " +
                     std::to_string(std::lround(choice->candidate.gain_m3)) + " m3 to be seen, " +
                     std::to_string(std::lround(lengthOf(result.path))) + " m away";
@@ -186,7 +188,9 @@ struct InformedPlanner::Search {
   /// What was closed while less was known is looked at once more before all is called explored.
   [[nodiscard]] bool reopenClosed() {
     const std::size_t known = request.map->freeVoxels() + request.map->occupiedVoxels();
-    if (known == planner.reopened_at_voxels_) return false;
+    constexpr double kWorthALook = 1.01;
+    const auto before = static_cast<double>(planner.reopened_at_voxels_);
+    if (static_cast<double>(known) < kWorthALook * before) return false;
     planner.reopened_at_voxels_ = known;
     bool is_any_open = planner.scouting_.barren() > 0;
     planner.scouting_.forget();
@@ -279,6 +283,9 @@ struct InformedPlanner::Search {
   }
 
   static constexpr double kThere_m = 1e-3;
+  static constexpr double kShareLeft = 0.5;  // of what a target promised that makes it worth having
+  static constexpr int kWaysHomeMax = 3;     // that the motion planner looks for in one plan
+  int ways_home = 0;
 };
 
 InformedPlanner::InformedPlanner(const InformedParams& params, const RobotModel& robot,
@@ -331,6 +338,7 @@ void InformedPlanner::reset() {
   growth_ = GraphGrowth(params_);
   scouting_ = Scouting(params_);
   tried_ = TriedTargets(params_.tried_radius_m);
+  visits_ = {};
   proposal_.reset();
   checked_map_.reset();
   checked_zones_ = 0;

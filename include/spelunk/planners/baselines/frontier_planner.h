@@ -9,6 +9,7 @@
 #include "spelunk/planners/exploration_planner.h"
 #include "spelunk/planners/shared/frontier_view.h"
 #include "spelunk/planners/shared/tried_targets.h"
+#include "spelunk/planners/shared/visits.h"
 
 namespace spelunk::planners::baselines {
 
@@ -17,8 +18,8 @@ enum class Preference {
   kNearest,  ///< The shortest way to it: Yamauchi, A frontier-based approach for autonomous
              ///< exploration, CIRA 1997. "FE" in Akbari 2021, section VIII-B.
   kUtility   ///< Most unknown volume seen from it a second of travel: Dai et al., Fast
-            ///< frontier-based information-driven autonomous exploration with an MAV, ICRA 2020.
-            ///< "UE".
+             ///< frontier-based information-driven autonomous exploration with an MAV, ICRA 2020.
+             ///< "UE".
 };
 
 /// Frontier-based exploration for robots that fly: every frontier voxel of the whole map is a
@@ -58,6 +59,7 @@ class FrontierPlanner final : public ExplorationPlanner {
   FrontierView view_;
   navigation::Navigator navigator_;
   TriedTargets tried_;
+  Visits visits_;
   std::optional<Target> target_;
   GraphLayer search_layer_;
   GraphLayer samples_layer_;

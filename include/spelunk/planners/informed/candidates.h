@@ -28,6 +28,8 @@ struct Refusals {
   int tried = 0;
   int gainless = 0;
   int unreachable = 0;
+  int far = 0;                        ///< The way is too long for a neighbour.
+  std::vector<Eigen::Vector3d> vain;  ///< Places of those that no later look will like better.
   std::string tried_why;
   double best_gain_m3 = 0.0;  ///< Of those that were not tried before.
 };
@@ -42,6 +44,7 @@ struct CandidateJudge {
   KnownSpace& space;
   Eigen::Vector3d root;
   Region region = Region::kVoid;
+  double way_max_m = 1e9;  ///< Longer ways do not count now.
   /// Way from the root to a vertex along the graph, for samples out of the neighbourhood; empty if
   /// the motion planner is to go straight from the root.
   std::function<graph::Polyline(graph::VertexId)> way_to_vertex;
@@ -50,7 +53,7 @@ struct CandidateJudge {
   [[nodiscard]] double gainAt(const Eigen::Vector3d& place) const;
 
   /// The samples that promise enough, were not given up before and that a free way leads to; best
-  /// utility first. What is dropped is counted in the refusals.
+  /// utility first. What is dropped is counted in the refusals, with its place.
   [[nodiscard]] std::vector<Candidate> judge(const std::vector<FrontierSample>& samples,
                                              Refusals& refusals) const;
 

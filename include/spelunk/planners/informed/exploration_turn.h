@@ -52,6 +52,7 @@ class ExplorationTurn {
   std::function<bool(const Candidate&)> fits_budget_;
   std::function<bool(graph::VertexId)> scout_;
   std::vector<Candidate> seen_;
+  std::vector<Eigen::Vector3d> vain_;  ///< Places that need not be sampled again in this turn.
   int round_ = 0;
   int samples_ = 0;
   int infeasible_ = 0;

@@ -29,9 +29,9 @@ class FrontierSampler {
  public:
   static constexpr int kAll = std::numeric_limits<int>::max();
 
-  /// A view for the duration of one plan.
+  /// A view for the duration of one plan. No sample is nearer than d_s to any of `apart_from`.
   FrontierSampler(const map::FrozenMap& map, const FreeSpace& space, const InformedParams& params,
-                  Rng rng);
+                  Rng rng, std::vector<Eigen::Vector3d> apart_from = {});
 
   /// At most `count` samples of a vertex whose clearances are measured; places of earlier draws
   /// count for the distance d_s. With kAll every voxel is looked at.

@@ -12,6 +12,7 @@
 #include "spelunk/planners/informed/scouting.h"
 #include "spelunk/planners/shared/frontier_view.h"
 #include "spelunk/planners/shared/tried_targets.h"
+#include "spelunk/planners/shared/visits.h"
 
 namespace spelunk::planners::informed {
 
@@ -40,6 +41,7 @@ class InformedPlanner final : public ExplorationPlanner {
     Path path;
     PathKind kind = PathKind::kLocal;
     double gain_m3 = 0.0;
+    Eigen::Vector3d voxel = Eigen::Vector3d::Zero();  ///< The frontier voxel it is for.
   };
   struct Search;
 
@@ -53,6 +55,7 @@ class InformedPlanner final : public ExplorationPlanner {
   GraphGrowth growth_;
   Scouting scouting_;
   TriedTargets tried_;
+  Visits visits_;
   std::optional<Proposal> proposal_;
   std::shared_ptr<const map::FrozenMap> checked_map_;
   std::size_t checked_zones_ = 0;
