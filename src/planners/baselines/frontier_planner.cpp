@@ -166,7 +166,8 @@ struct FrontierPlanner::Search {
   }
 
   void consider(const Eigen::Vector3d& voxel, const Eigen::Vector3d& place) {
-    if (planner.tried_.findRefusal(place)) {
+    constexpr double kHere_m = 0.3;  // the robot looks from there anyway
+    if ((place - root).norm() < kHere_m || planner.tried_.findRefusal(place)) {
       ++given_up;
       return;
     }

@@ -6,11 +6,21 @@
 
 namespace spelunk::planners::informed {
 
+namespace {
+
+constexpr double kHere_m = 0.3;  // the robot looks from there anyway
+
+}  // namespace
+
 double CandidateJudge::gainAt(const Eigen::Vector3d& place) const {
   return view.seenFrom(place, request.pose.yaw, request.bounds).unknown_m3;
 }
 
 bool CandidateJudge::isWorthIt(Candidate& candidate, double& bits, Refusals& refusals) const {
+  if ((candidate.sample.place - root).norm() < kHere_m) {
+    ++refusals.gainless;
+    return false;
+  }
   if (const auto refusal = tried.findRefusal(candidate.sample.place)) {
     ++refusals.tried;
     refusals.tried_why = *refusal;
