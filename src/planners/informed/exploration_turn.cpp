@@ -111,8 +111,8 @@ std::optional<Candidate> ExplorationTurn::tryOnce(const std::vector<Draw>& draws
 void ExplorationTurn::close(VertexId vertex, const Refusals& refusals, int out_of_budget) {
   if (refusals.far > 0) return;
   VertexLabel& label = growth_.graph().update(vertex);
-  over_budget_ += out_of_budget;
   label.is_explored = true;
+  label.is_over_budget = out_of_budget > 0;
   label.best_gain_m3 = refusals.best_gain_m3;
   label.closed_voxels.clear();
   for (const FrontierVoxel& voxel : label.frontier) label.closed_voxels.push_back(voxel.voxel);

@@ -154,7 +154,8 @@ struct InformedPlanner::Search {
     const Stopwatch watch;
     const Region region =
         regionAt(*request.map, {root, request.pose.yaw}, params.branch_distance_m);
-    CandidateJudge judge{request, planner.view_, params, planner.tried_, space, root, region, 0.0, {}};
+    CandidateJudge judge{request, planner.view_, params, planner.tried_, space, root,
+                         region,  0.0,           {}};
     ExplorationTurn turn(
         planner.growth_, survey, judge, request.rng.fork("sampler"),
         [this](const Candidate& candidate) {
@@ -207,13 +208,15 @@ struct InformedPlanner::Search {
 
   void reportNothingLeft(const ExplorationTurn& turn) {
     const ReachabilityGraph& graph = planner.growth_.graph();
+    bool is_over_budget = false;
     for (const VertexId vertex : graph.vertices()) {
       const VertexLabel& label = graph.labelOf(vertex);
+      is_over_budget = is_over_budget || (label.is_over_budget && !label.closed_because.empty());
       if (!label.closed_because.empty())
         result.remaining.push_back(
             {graph.graph().position(vertex), label.best_gain_m3, label.closed_because});
     }
-    if (turn.overBudget() > 0) {
+    if (is_over_budget) {
       result.status = PlanStatus::kBudgetSaysHome;
       result.reason = "something is left, but the endurance allows none of it and the way home";
     } else if (turn.samples() == 0 && !result.remaining.empty() &&

@@ -30,7 +30,6 @@ class ExplorationTurn {
   [[nodiscard]] std::optional<Choice> chooseFrom(graph::VertexId current);
 
   [[nodiscard]] int samples() const { return samples_; }
-  [[nodiscard]] int overBudget() const { return over_budget_; }
   [[nodiscard]] GraphLayer samplesLayer() const;
   void fill(PlanStats& stats) const;
 
@@ -56,7 +55,6 @@ class ExplorationTurn {
   int round_ = 0;
   int samples_ = 0;
   int infeasible_ = 0;
-  int over_budget_ = 0;
   Refusals last_refusals_;
   int last_over_budget_ = 0;
 };

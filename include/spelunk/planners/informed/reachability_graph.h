@@ -26,6 +26,7 @@ struct VertexLabel {
   std::vector<FrontierVoxel> frontier;  ///< W, in the order of isBefore().
   bool is_explored = false;             ///< exp
   std::string closed_because;           ///< Why it is explored though voxels are left.
+  bool is_over_budget = false;          ///< Closed for want of time.
 
   bool is_measured = false;                    ///< Whether the clearances are filled in.
   std::uint64_t surveyed = 0;                  ///< The frontier's change that W was collected at.
