@@ -13,6 +13,8 @@ std::unique_ptr<planners::ExplorationPlanner> cheapPlanner(const std::string& na
   ParamTree tree;
   tree.set(name + ".max_vertices", "60", "test");
   tree.set(name + ".local_box_m", "[14, 14, 4]", "test");
+  tree.set(name + ".iterations", "500", "test");
+  tree.set(name + ".frontier_voxels_min", "4", "test");
   return planners::makePlanner(name, tree, test::smallRobot(), test::coarseMap().resolution_m);
 }
 

@@ -18,7 +18,7 @@ using graph::Polyline;
 
 constexpr double kPlaceReach_m = 1.5;
 constexpr double kPlaceStep_m = 0.3;
-constexpr double kClusterSide_m = 1.0;
+constexpr double kClusterSide_m = 2.0;
 constexpr double kReached_m = 0.5;
 constexpr double kShareLeft = 0.5;  // of what a target promised that still makes it worth having
 

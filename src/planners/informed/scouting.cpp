@@ -9,7 +9,7 @@
 namespace spelunk::planners::informed {
 namespace {
 
-constexpr double kClusterSide_m = 1.0;
+constexpr double kClusterSide_m = 2.0;
 constexpr double kPlaceReach_m = 2.0;
 constexpr double kPlaceStep_m = 0.4;
 constexpr int kFailuresMax = 20;  // of the motion planner, in one call

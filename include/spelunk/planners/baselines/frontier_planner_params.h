@@ -30,7 +30,7 @@ struct FrontierPlannerParams {
     field("gain_min_m3", gain_min_m3, Bounds{0.0, 1e5},
           "less unknown volume is not worth flying to (frontier_utility only)", Audience::kUser);
     field("frontier_voxels_min", frontier_voxels_min, Bounds{1, 100000},
-          "fewer frontier voxels within half a metre are no target");
+          "fewer frontier voxels within a metre are no target");
     field("closing_height_m", closing_height_m, Bounds{0.0, 10.0},
           "gaps between sensor rows this high hold nothing to explore");
     field("growth_m", growth_m, Bounds{0.0, 5.0},
