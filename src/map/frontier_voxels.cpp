@@ -10,7 +10,6 @@
 namespace spelunk::map {
 namespace {
 
-constexpr int kChunkSide = 32;
 constexpr std::uint64_t kLowX = 0x0101010101010101u;  // bits with x = 0 of each row
 constexpr std::uint64_t kHighX = kLowX << 7;
 constexpr std::uint64_t kLowY = 0xFFu;

@@ -15,7 +15,6 @@ constexpr int kFruitlessMax = 12;
 constexpr double kUnseenAhead_m = 0.5;  // the place on the plan that did not come into view ...
 constexpr double kUnseenHalf_m = 0.3;   // ... and half the edge of what is avoided around it
 constexpr double kLineTolerance_m = 0.02;
-constexpr double kPiece_m = 1.6;
 
 NoGoZone unseenAround(const Eigen::Vector3d& place) {
   NoGoZone zone;
@@ -33,10 +32,10 @@ NoGoZone unseenAround(const Eigen::Vector3d& place) {
 bool Mission::Impl::isPlanBlocked() {
   const double here = project(go_to->plan, input.latest()->pose.position).arc_m;
   const Path rest = slice(go_to->plan, here, lengthOf(go_to->plan));
-  navigation::SegmentChecker open(map.freeze(), robot.box_m,
-                                  {map::Passable::kNotOccupied, kPiece_m});
+  map::ConfigurationSpace& open = go_to->open;
+  open.use(map.freeze());
   for (std::size_t i = 1; i < rest.size(); ++i)
-    if (!open.isFree(rest[i - 1].position, rest[i].position)) return true;
+    if (!open.isSweepFree(rest[i - 1].position, rest[i].position)) return true;
   return false;
 }
 
@@ -44,7 +43,7 @@ void Mission::Impl::takeUpMore() {
   const double length = lengthOf(go_to->plan);
   if (go_to->taken_up_m >= length - kEnd_m) return;
   const Path rest = slice(go_to->plan, go_to->taken_up_m, length);
-  const auto check = navigation::checkPath(*map.freeze(), rest, robot.box_m, no_go, limits);
+  const auto check = navigation::checkPath(spaceOf(robot.box_m), rest, no_go, limits);
   if (!check.isFree() && check.fault != navigation::PathFault::kUnknown) {
     go_to->cause = ReplanCause::kObstacle;
     return;
@@ -68,7 +67,8 @@ std::string Mission::Impl::flyPlan(double from_m, double to_m) {
     if (whole.empty() || distance(whole.back(), pose) > kEnd_m) whole.push_back(pose);
   if (affordableLength(whole, std::nullopt) < lengthOf(whole))
     return "no way home from farther on the way to the point fits the endurance";
-  fly(whole, planners::PathKind::kReposition, robot.box_m);
+  fly(whole, planners::PathKind::kReposition, robot.box_m,
+      robot.box_m + Eigen::Vector3d::Constant(2.0 * go_to->safe_distance_m));
   go_to->taken_up_m = to_m;
   return "";
 }
@@ -96,7 +96,7 @@ void Mission::Impl::replan() {
 
 void Mission::Impl::askForWay() {
   frozen = map.freeze();
-  home_graph->connect(*frozen);
+  home_graph->connect(frozen);
   RunningJob job;
   job.number = next_job++;
   job.explore = false;
@@ -135,6 +135,7 @@ void Mission::Impl::installPlan(const navigation::NavigationAnswer& answer) {
   status.go_to.planning_s += 1e-3 * answer.planning_ms;
   go_to->plan = answer.path;
   go_to->monitor.emplace(answer.path, robot.box_m, map.params().resolution_m);
+  go_to->safe_distance_m = answer.safe_distance_m;
   go_to->taken_up_m = 0.0;
   go_to->is_suspect = false;
   go_to->stopped_s = now;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <deque>
 #include <memory>
 #include <optional>
 #include <string>
@@ -45,15 +46,19 @@ enum class ReplanCause { kNone, kObstacle, kDeviation };
 
 /// The flight to a point that was asked for.
 struct GoToTask {
+  explicit GoToTask(const Eigen::Vector3d& box) : open(box, map::Passable::kNotOccupied) {}
+
   NavigationJob job;  ///< Of the newest plan.
   Path plan;          ///< From where the robot was then to the point, unknown space included.
   std::optional<navigation::PathMonitor> monitor;
-  double taken_up_m = 0.0;  ///< The plan's length up to which it was checked and flown.
+  double safe_distance_m = 0.0;  ///< That the plan keeps; rounded corners are to keep it too.
+  double taken_up_m = 0.0;       ///< The plan's length up to which it was checked and flown.
   ReplanCause cause = ReplanCause::kNone;
   std::vector<NoGoZone> unseen;  ///< Places on earlier plans that did not come into view.
   Eigen::Vector3d replanned_at = Eigen::Vector3d::Zero();
-  int fruitless = 0;        ///< Replans since the robot last got somewhere.
-  bool is_suspect = false;  ///< A voxel on the plan became occupied since the last look.
+  int fruitless = 0;             ///< Replans since the robot last got somewhere.
+  map::ConfigurationSpace open;  ///< Unknown space included.
+  bool is_suspect = false;       ///< A voxel on the plan became occupied since the last look.
   double next_look_s = 0.0;
   double stopped_s = 0.0;  ///< When the last leg ended.
 };
@@ -157,7 +162,12 @@ struct Mission::Impl {
   [[nodiscard]] double affordableLength(const Path& path, const std::optional<Path>& home_path);
   [[nodiscard]] Trajectory smoothest(const Path& path, const navigation::MotionStart& start,
                                      const Eigen::Vector3d& box);
-  void fly(const Path& path, planners::PathKind kind, const Eigen::Vector3d& box);
+  void fly(const Path& path, planners::PathKind kind, const Eigen::Vector3d& box) {
+    fly(path, kind, box, box);
+  }
+  /// Corners are rounded as far as `corner_box`, which may be larger, stays free.
+  void fly(const Path& path, planners::PathKind kind, const Eigen::Vector3d& box,
+           const Eigen::Vector3d& corner_box);
 
   // --- The way home (mission_home.cpp).
   void noteRoute(const Path& rest, const planners::PlanResult& home);
@@ -168,6 +178,8 @@ struct Mission::Impl {
   void stepHome();
   void launchHome();
   [[nodiscard]] Path fromMotion(const WayHome& way) const;
+  /// The configuration space of a box in the map as it is now.
+  [[nodiscard]] map::ConfigurationSpace& spaceOf(const Eigen::Vector3d& box);
   [[nodiscard]] bool isWayClear(const Path& path, const Eigen::Vector3d& box);
   /// The same for the robot's own trail, where marked ground has been walked on.
   [[nodiscard]] bool isTrailClear(const Path& path, const Eigen::Vector3d& box);
@@ -205,6 +217,7 @@ struct Mission::Impl {
   std::vector<NoGoZone> no_go;        ///< All of them.
   std::vector<NoGoZone> given_zones;  ///< Those that people set; the rest was marked on the way.
   std::shared_ptr<const map::FrozenMap> frozen;
+  std::deque<map::ConfigurationSpace> spaces;  ///< One a box that was asked for.
   Eigen::Isometry3d T_world_base = Eigen::Isometry3d::Identity();  ///< Newest, of the base itself.
   double next_ground_check_s = 0.0;
   double next_retime_s = 0.0;

@@ -8,11 +8,17 @@
 #include "spelunk/common/contract.h"
 #include "spelunk/common/stopwatch.h"
 #include "spelunk/map/free_voxels.h"
+#include "spelunk/navigation/swept_path_check.h"
 
 namespace spelunk::navigation {
 namespace {
 
-enum class Method { kAdaptive, kPlain };
+enum class Method { kAdaptive, kPlain, kPlainShort };
+
+Method methodOf(const NavigationParams& params) {
+  if (params.method == "adaptive") return Method::kAdaptive;
+  return params.method == "plain" ? Method::kPlain : Method::kPlainShort;
+}
 
 /// One way to search, tried in turn.
 struct Attempt {
@@ -33,11 +39,11 @@ AxisAlignedBox grown(const AxisAlignedBox& box, double by_m) {
 /// One query; lives for one call.
 struct Query {
   Query(const NavigationQuery& asked_query, const NavigationParams& parameters,
-        InflatedGrids& map_grids)
+        RobotSpaces& robot_spaces)
       : asked(asked_query),
         params(parameters),
-        grids(map_grids),
-        method(parameters.method == "plain" ? Method::kPlain : Method::kAdaptive),
+        spaces(robot_spaces),
+        method(methodOf(parameters)),
         start(asked.start.position) {}
 
   NavigationAnswer run() {
@@ -72,11 +78,11 @@ struct Query {
       return refused(NavigationStatus::kOutOfBounds, "the goal lies outside the bounds"), false;
     if (isInZone(goal))
       return refused(NavigationStatus::kNoGo, "the goal lies in a no-go zone"), false;
-    if (!grids.open().isFree(goal, goal))
+    if (!spaces.open.isFree(goal))
       return refused(NavigationStatus::kGoalBlocked,
                      "the robot's box at the goal touches an obstacle"),
              false;
-    is_goal_known = grids.known().isFree(goal, goal);
+    is_goal_known = spaces.known.isFree(goal);
     if (!is_goal_known && asked.region == SearchRegion::kKnown)
       return refused(NavigationStatus::kGoalUnknown, "the goal is not in known free space"), false;
     return true;
@@ -85,8 +91,8 @@ struct Query {
   bool checkStart() {
     if (isInZone(start))
       return refused(NavigationStatus::kNoGo, "the start lies in a no-go zone"), false;
-    SearchSpace space(asked, start, grids, Unknown::kClosed, Clearance::kBox);
-    const auto place = freePlaceNear(start, space, grids);
+    SearchSpace space(asked, start, spaces, Unknown::kClosed, Clearance::kBox);
+    const auto place = freePlaceNear(start, space, spaces);
     if (!place)
       return refused(NavigationStatus::kStartBlocked,
                      "the robot's box at the start is not in known free space"),
@@ -111,16 +117,16 @@ struct Query {
 
   /// The first kind of attempt counts: nothing less safe is taken because it is straight.
   bool goStraight(const Attempt& attempt) {
-    if (is_straight_tried) return false;
+    if (is_straight_tried || method == Method::kPlain) return false;
     is_straight_tried = true;
-    SearchSpace space(asked, start, grids, attempt.unknown, attempt.clearance);
+    SearchSpace space(asked, start, spaces, attempt.unknown, attempt.clearance);
     if (!space.isFree(start, asked.goal.position)) return false;
     accept({start, asked.goal.position}, space, "the straight line is free");
     return true;
   }
 
   bool search(const Attempt& attempt, int iterations) {
-    SearchSpace space(asked, start, grids, attempt.unknown, attempt.clearance);
+    SearchSpace space(asked, start, spaces, attempt.unknown, attempt.clearance);
     TreeTask task;
     task.start = start;
     task.goal = asked.goal.position;
@@ -128,6 +134,7 @@ struct Query {
     task.extension_m = params.extension_m;
     task.iterations = iterations;
     task.time_limit_s = secondsLeft();
+    task.line = method == Method::kPlain ? TreeLine::kAsFound : TreeLine::kSimplified;
     std::optional<map::FreeVoxels> known;
     if (method == Method::kAdaptive) known.emplace(asked.map, task.region);
     const double known_share = attempt.unknown == Unknown::kClosed ? 1.0 : kKnownShare;
@@ -166,7 +173,7 @@ struct Query {
       const bool is_nearer =
           !answer.nearest_reachable ||
           (place - goal).squaredNorm() < (*answer.nearest_reachable - goal).squaredNorm();
-      if (is_nearer && grids.known().isFree(place, place)) answer.nearest_reachable = place;
+      if (is_nearer && spaces.known.isFree(place)) answer.nearest_reachable = place;
     }
   }
 
@@ -188,7 +195,7 @@ struct Query {
   void noteKnownLength() {
     const bool steps_out = start != asked.start.position;
     const Path rest(answer.path.begin() + (steps_out ? 1 : 0), answer.path.end());
-    answer.known_length_m = knownLength(rest, grids.known(), asked.map->resolution());
+    answer.known_length_m = checkPath(spaces.known, rest, {}, {}).arc_m;
     if (steps_out) answer.known_length_m += (start - asked.start.position).norm();
   }
 
@@ -202,7 +209,7 @@ struct Query {
 
   const NavigationQuery& asked;
   const NavigationParams& params;
-  InflatedGrids& grids;
+  RobotSpaces& spaces;
   Method method;
   Eigen::Vector3d start;
   bool is_goal_known = false;
@@ -215,8 +222,8 @@ struct Query {
 }  // namespace
 
 std::vector<std::string> NavigationParams::problems() const {
-  if (method == "adaptive" || method == "plain") return {};
-  return {"navigation.method = '" + method + "': write adaptive or plain"};
+  if (method == "adaptive" || method == "plain" || method == "plain_short") return {};
+  return {"navigation.method = '" + method + "': write adaptive, plain or plain_short"};
 }
 
 const char* toText(NavigationStatus status) {
@@ -241,7 +248,7 @@ const char* toText(NavigationStatus status) {
 
 struct Navigator::Impl {
   NavigationParams params;
-  std::optional<InflatedGrids> grids;
+  std::optional<RobotSpaces> spaces;
 };
 
 Navigator::Navigator(const NavigationParams& params) : impl_(new Impl{params, std::nullopt}) {
@@ -256,9 +263,10 @@ NavigationAnswer Navigator::plan(const NavigationQuery& query) {
   require(isFinite(query.start) && isFinite(query.goal), "Navigator: start or goal is not finite");
   require(query.box.allFinite() && (query.box.array() > 0.0).all(), "Navigator: bad box");
   const Stopwatch watch;
-  if (!impl_->grids || !impl_->grids->isFor(query))
-    impl_->grids.emplace(query.map, query.box, impl_->params.safe_distance_m);
-  NavigationAnswer answer = Query(query, impl_->params, *impl_->grids).run();
+  if (!impl_->spaces || impl_->spaces->known.boxSize() != query.box)
+    impl_->spaces.emplace(query.box, impl_->params.safe_distance_m);
+  impl_->spaces->use(query.map);
+  NavigationAnswer answer = Query(query, impl_->params, *impl_->spaces).run();
   answer.planning_ms = watch.milliseconds();
   return answer;
 }

@@ -140,7 +140,7 @@ struct Search {
     result.iterations = static_cast<int>(limit.getTimesCalled());
     readTrees(planner, result);
     if (status == ob::PlannerStatus::EXACT_SOLUTION)
-      result.line = simplified(*problem->getSolutionPath()->as<og::PathGeometric>());
+      result.line = lineOf(*problem->getSolutionPath()->as<og::PathGeometric>());
     return result;
   }
 
@@ -157,15 +157,19 @@ struct Search {
     }
   }
 
-  std::vector<Eigen::Vector3d> simplified(og::PathGeometric path) {
+  std::vector<Eigen::Vector3d> lineOf(og::PathGeometric path) {
+    if (task.line == TreeLine::kSimplified) simplify(path);
+    std::vector<Eigen::Vector3d> line;
+    for (const ob::State* state : path.getStates()) line.push_back(positionOf(state));
+    return task.line == TreeLine::kSimplified ? withoutNeedless(line) : line;
+  }
+
+  void simplify(og::PathGeometric& path) {
     SeededSimplifier simplifier(info, rng.fork("simplify"));
     simplifier.reduceVertices(path);
     simplifier.shortcutPath(path, kShortcutSteps, kShortcutMisses);
     simplifier.collapseCloseVertices(path);
     simplifier.reduceVertices(path);
-    std::vector<Eigen::Vector3d> line;
-    for (const ob::State* state : path.getStates()) line.push_back(positionOf(state));
-    return withoutNeedless(line);
   }
 
   /// From each kept point straight to the last one that can be reached.

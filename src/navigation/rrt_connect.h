@@ -7,6 +7,9 @@
 
 namespace spelunk::navigation {
 
+/// What becomes of the line that two trees make.
+enum class TreeLine { kAsFound, kSimplified };
+
 /// What one run of RRT-Connect is to do.
 struct TreeTask {
   Eigen::Vector3d start = Eigen::Vector3d::Zero();
@@ -16,10 +19,11 @@ struct TreeTask {
   double extension_m = 1.0;
   int iterations = 20000;
   double time_limit_s = 0.0;  ///< May be infinite.
+  TreeLine line = TreeLine::kSimplified;
 };
 
 struct TreeResult {
-  std::vector<Eigen::Vector3d> line;  ///< From start to goal, simplified; empty if none was found.
+  std::vector<Eigen::Vector3d> line;  ///< From start to goal; empty if none was found.
   int iterations = 0;
   NavigationTrees trees;
   std::vector<Eigen::Vector3d> reached;  ///< Vertices of the tree that grew from the start.

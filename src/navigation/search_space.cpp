@@ -7,7 +7,6 @@
 namespace spelunk::navigation {
 namespace {
 
-constexpr double kPiece_m = 1.6;   // of sweeps: small windows, made quickly
 constexpr double kWaived_m = 1.0;  // of start and goal: the safe distance is not asked for
 constexpr double kStepOut_m = 0.6;
 constexpr int kStepOutCells = 4;
@@ -41,26 +40,14 @@ std::vector<Eigen::Vector3d> offsetsByDistance() {
 
 }  // namespace
 
-InflatedGrids::InflatedGrids(std::shared_ptr<const map::FrozenMap> map, const Eigen::Vector3d& box,
-                             double safe_distance_m)
-    : map_(std::move(map)),
-      box_(box),
-      safe_box_(box + Eigen::Vector3d::Constant(2.0 * safe_distance_m)) {}
-
-SegmentChecker& InflatedGrids::made(std::optional<SegmentChecker>& checker,
-                                    const Eigen::Vector3d& box, map::Passable passable) {
-  if (!checker) checker.emplace(map_, box, SweepTiles{passable, kPiece_m});
-  return *checker;
-}
-
 SearchSpace::SearchSpace(const NavigationQuery& query, const Eigen::Vector3d& start,
-                         InflatedGrids& grids, Unknown unknown, Clearance clearance)
-    : query_(query), start_(start), grids_(grids), unknown_(unknown), clearance_(clearance) {}
+                         RobotSpaces& spaces, Unknown unknown, Clearance clearance)
+    : query_(query), start_(start), spaces_(spaces), unknown_(unknown), clearance_(clearance) {}
 
 bool SearchSpace::isFree(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
   if (!isAllowed(a, b)) return false;
-  SegmentChecker& box = unknown_ == Unknown::kClosed ? grids_.known() : grids_.open();
-  return box.isFree(a, b) && (clearance_ == Clearance::kBox || keepsSafeDistance(a, b));
+  map::ConfigurationSpace& box = unknown_ == Unknown::kClosed ? spaces_.known : spaces_.open;
+  return box.isSweepFree(a, b) && (clearance_ == Clearance::kBox || keepsSafeDistance(a, b));
 }
 
 bool SearchSpace::isAllowed(const Eigen::Vector3d& a, const Eigen::Vector3d& b) const {
@@ -74,34 +61,15 @@ bool SearchSpace::keepsSafeDistance(const Eigen::Vector3d& a, const Eigen::Vecto
   const double from = std::max(waivedShare(a, b, start_), waivedShare(a, b, goal));
   const double to = 1.0 - std::max(waivedShare(b, a, start_), waivedShare(b, a, goal));
   if (from >= to && (from > 0.0 || to < 1.0)) return true;
-  return grids_.safe().isFree(a + from * (b - a), a + to * (b - a));
-}
-
-double knownLength(const Path& path, SegmentChecker& known, double step_m) {
-  double arc = 0.0;
-  for (std::size_t i = 1; i < path.size(); ++i) {
-    const Eigen::Vector3d& a = path[i - 1].position;
-    const Eigen::Vector3d way = path[i].position - a;
-    if (known.isFree(a, path[i].position)) {
-      arc += way.norm();
-      continue;
-    }
-    const int steps = std::max(1, static_cast<int>(std::ceil(way.norm() / step_m)));
-    int free = 0;
-    while (free < steps && known.isFree(a + way * (static_cast<double>(free) / steps),
-                                        a + way * (static_cast<double>(free + 1) / steps)))
-      ++free;
-    return arc + way.norm() * free / steps;
-  }
-  return arc;
+  return spaces_.safe.isSweepFree(a + from * (b - a), a + to * (b - a));
 }
 
 std::optional<Eigen::Vector3d> freePlaceNear(const Eigen::Vector3d& place, SearchSpace& space,
-                                             InflatedGrids& grids) {
+                                             RobotSpaces& spaces) {
   static const std::vector<Eigen::Vector3d> kOffsets = offsetsByDistance();
   for (const Eigen::Vector3d& offset : kOffsets) {
     const Eigen::Vector3d candidate = place + offset;
-    if (space.isFree(candidate) && grids.body().isFree(place, candidate)) return candidate;
+    if (space.isFree(candidate) && spaces.body.isSweepFree(place, candidate)) return candidate;
   }
   return std::nullopt;
 }

@@ -3,38 +3,27 @@
 #include <memory>
 #include <optional>
 
+#include "spelunk/map/configuration_space.h"
 #include "spelunk/navigation/navigator.h"
-#include "spelunk/navigation/swept_path_check.h"
 
 namespace spelunk::navigation {
 
-/// The inflated grids of one map and box, each made when it is first asked.
-class InflatedGrids {
- public:
-  InflatedGrids(std::shared_ptr<const map::FrozenMap> map, const Eigen::Vector3d& box,
-                double safe_distance_m);
+/// The configuration spaces of one robot: what they inflated is kept from map to map.
+struct RobotSpaces {
+  RobotSpaces(const Eigen::Vector3d& box, double safe_distance_m)
+      : known(box, map::Passable::kKnownFree),
+        open(box, map::Passable::kNotOccupied),
+        safe(box + Eigen::Vector3d::Constant(2.0 * safe_distance_m), map::Passable::kNotOccupied),
+        body(0.5 * box, map::Passable::kNotOccupied) {}
 
-  [[nodiscard]] bool isFor(const NavigationQuery& query) const {
-    return query.map == map_ && query.box == box_;
+  void use(const std::shared_ptr<const map::FrozenMap>& map) {
+    for (map::ConfigurationSpace* space : {&known, &open, &safe, &body}) space->use(map);
   }
-  SegmentChecker& known() { return made(known_, box_, map::Passable::kKnownFree); }
-  SegmentChecker& open() { return made(open_, box_, map::Passable::kNotOccupied); }
-  /// The box grown by the safe distance on each side, kept clear of obstacles only.
-  SegmentChecker& safe() { return made(safe_, safe_box_, map::Passable::kNotOccupied); }
-  /// Half the box, kept clear of obstacles only: the robot's body.
-  SegmentChecker& body() { return made(body_, 0.5 * box_, map::Passable::kNotOccupied); }
 
- private:
-  SegmentChecker& made(std::optional<SegmentChecker>& checker, const Eigen::Vector3d& box,
-                       map::Passable passable);
-
-  std::shared_ptr<const map::FrozenMap> map_;
-  Eigen::Vector3d box_;
-  Eigen::Vector3d safe_box_;
-  std::optional<SegmentChecker> known_;
-  std::optional<SegmentChecker> open_;
-  std::optional<SegmentChecker> safe_;
-  std::optional<SegmentChecker> body_;
+  map::ConfigurationSpace known;
+  map::ConfigurationSpace open;  ///< Unknown space included.
+  map::ConfigurationSpace safe;  ///< The box grown by the safe distance, clear of obstacles only.
+  map::ConfigurationSpace body;  ///< Half the box, clear of obstacles only.
 };
 
 enum class Unknown { kClosed, kOpen };
@@ -43,7 +32,7 @@ enum class Clearance { kBox, kSafeDistance };
 /// Where one search may go. A view for the duration of one query.
 class SearchSpace {
  public:
-  SearchSpace(const NavigationQuery& query, const Eigen::Vector3d& start, InflatedGrids& grids,
+  SearchSpace(const NavigationQuery& query, const Eigen::Vector3d& start, RobotSpaces& spaces,
               Unknown unknown, Clearance clearance);
 
   [[nodiscard]] bool isFree(const Eigen::Vector3d& a, const Eigen::Vector3d& b);
@@ -58,18 +47,14 @@ class SearchSpace {
 
   const NavigationQuery& query_;
   Eigen::Vector3d start_;
-  InflatedGrids& grids_;
+  RobotSpaces& spaces_;
   Unknown unknown_;
   Clearance clearance_;
 };
 
-/// The line's length up to which the box is in known free space, to about a voxel.
-[[nodiscard]] double knownLength(const Path& path, SegmentChecker& known, double step_m);
-
 /// The given place if the box is free there; else the nearest one within 0.6 m that the robot's
 /// body can step out to.
 [[nodiscard]] std::optional<Eigen::Vector3d> freePlaceNear(const Eigen::Vector3d& place,
-                                                           SearchSpace& space,
-                                                           InflatedGrids& grids);
+                                                           SearchSpace& space, RobotSpaces& spaces);
 
 }  // namespace spelunk::navigation

@@ -21,7 +21,8 @@ std::map<PackedKey, Mask> freeOf(const ScanMarks& marks) {
 }
 
 std::vector<RayWalk> walksFrom(const Eigen::Vector3f& origin, int rays, float reach, Rng& rng) {
-  ScanTracer tracer(origin, 0.15, 50.0);
+  std::vector<RayWalk> walks;
+  ScanTracer tracer(origin, 0.15, 50.0, walks);
   ScanMarks hits;
   const auto draw = [&] { return reach * static_cast<float>(2.0 * rng.uniform() - 1.0); };
   for (int i = 0; i < rays; ++i) {
@@ -30,12 +31,13 @@ std::vector<RayWalk> walksFrom(const Eigen::Vector3f& origin, int rays, float re
     if (i % 11 == 0) end = tracer.centreAround(end);
     tracer.add(end, hits);
   }
-  return tracer.walks();
+  return walks;
 }
 
 TEST(RayMarker, MarksWhatWalkingOneByOneMarks) {
   Rng rng(4);
   RayMarker marker;
+  RayMarker scalar(WalkLanes::kOne);
   for (int round = 0; round < 20; ++round) {
     const auto shift = static_cast<float>(round);
     const Eigen::Vector3f origin(shift * 3.7F - 30.0F, 1.3F * shift, -0.4F * shift);
@@ -44,7 +46,10 @@ TEST(RayMarker, MarksWhatWalkingOneByOneMarks) {
     ScanMarks plain;
     marker.markFree(walks, fast);
     RayMarker::markFreeOneByOne(walks, plain);
+    ScanMarks by_scalars;
+    scalar.markFree(walks, by_scalars);
     ASSERT_EQ(freeOf(fast), freeOf(plain)) << "round " << round;
+    ASSERT_EQ(freeOf(by_scalars), freeOf(plain)) << "round " << round;
     ASSERT_GT(freeOf(plain).size(), 5U);
   }
 }

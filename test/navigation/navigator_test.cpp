@@ -67,6 +67,11 @@ Navigator navigator(const std::string& method = "adaptive", double safe_distance
   return Navigator(params);
 }
 
+bool isKnownFree(const NavigationQuery& query, const Path& path, const Eigen::Vector3d& box) {
+  map::ConfigurationSpace space(box, query.map);
+  return checkPath(space, path, {}, {}).isFree();
+}
+
 TEST(Navigator, FindsTheDoorInKnownSpace) {
   const NavigationQuery query = acrossTheHalls();
   const NavigationAnswer answer = navigator().plan(query);
@@ -74,7 +79,7 @@ TEST(Navigator, FindsTheDoorInKnownSpace) {
   EXPECT_EQ(answer.path.front().position, query.start.position);
   EXPECT_EQ(answer.path.back().position, query.goal.position);
   EXPECT_EQ(answer.path.back().yaw, 1.0);
-  EXPECT_TRUE(checkPath(*query.map, answer.path, query.box, {}, {}).isFree());
+  EXPECT_TRUE(isKnownFree(query, answer.path, query.box));
   EXPECT_NEAR(answer.known_length_m, lengthOf(answer.path), 1e-9);
   EXPECT_LT(lengthOf(answer.path), 40.0);  // the shortest is about 36
 }
@@ -111,7 +116,7 @@ TEST(Navigator, PathKeepsTheSafeDistanceAwayFromItsEnds) {
   EXPECT_EQ(answer.safe_distance_m, 0.4);
   const Path inner = slice(answer.path, 1.0, lengthOf(answer.path) - 1.0);
   const Eigen::Vector3d grown = kBox + Eigen::Vector3d::Constant(0.8);
-  EXPECT_TRUE(checkPath(*query.map, inner, grown, {}, {}).isFree());
+  EXPECT_TRUE(isKnownFree(query, inner, grown));
 }
 
 TEST(Navigator, NarrowDoorIsTakenWithoutTheSafeDistance) {
@@ -139,7 +144,7 @@ TEST(Navigator, AdaptiveStaysInKnownSpaceWhereThePlainOneCutsThroughTheUnknown) 
   query.box = kBox;
   query.rng = Rng(3);
   const NavigationAnswer adaptive = navigator("adaptive").plan(query);
-  const NavigationAnswer plain = navigator("plain").plan(query);
+  const NavigationAnswer plain = navigator("plain_short").plan(query);
   ASSERT_EQ(adaptive.status, NavigationStatus::kOk);
   ASSERT_EQ(plain.status, NavigationStatus::kOk);
   EXPECT_NEAR(adaptive.known_length_m, lengthOf(adaptive.path), 1e-9);
@@ -148,19 +153,30 @@ TEST(Navigator, AdaptiveStaysInKnownSpaceWhereThePlainOneCutsThroughTheUnknown) 
   EXPECT_LT(plain.known_length_m, 2.0);
 }
 
+TEST(Navigator, PlainTakesTheTreesAsTheyAre) {
+  const NavigationQuery query = acrossTheHalls();
+  const NavigationAnswer plain = navigator("plain").plan(query);
+  const NavigationAnswer shortened = navigator("plain_short").plan(query);
+  ASSERT_EQ(plain.status, NavigationStatus::kOk);
+  ASSERT_EQ(shortened.status, NavigationStatus::kOk);
+  EXPECT_GT(lengthOf(plain.path), 1.1 * lengthOf(shortened.path));
+  for (std::size_t i = 1; i < plain.path.size(); ++i)
+    EXPECT_LE(distance(plain.path[i - 1], plain.path[i]), 1.0 + 1e-9) << "one extension";
+}
+
 TEST(Navigator, TreesHoldTheStartAndEachEdgeIsFree) {
   NavigationQuery query = acrossTheHalls();
   query.trees = TreeDetail::kKeep;
   const NavigationAnswer answer = navigator("adaptive", 0.0).plan(query);
   ASSERT_GT(answer.trees.edges.size(), 3U);
-  SegmentChecker checker(query.map, query.box);
+  map::ConfigurationSpace space(query.box, query.map);
   bool has_start = false;
   for (const Eigen::Vector3d& vertex : answer.trees.vertices)
     has_start = has_start || vertex == query.start.position;
   EXPECT_TRUE(has_start);
   for (const auto& [a, b] : answer.trees.edges)
-    EXPECT_TRUE(checker.isFree(answer.trees.vertices[a], answer.trees.vertices[b]) ||
-                checker.isFree(answer.trees.vertices[b], answer.trees.vertices[a]));
+    EXPECT_TRUE(space.isSweepFree(answer.trees.vertices[a], answer.trees.vertices[b]) ||
+                space.isSweepFree(answer.trees.vertices[b], answer.trees.vertices[a]));
 }
 
 TEST(Navigator, UnreachableGoalGivesTheReasonAndTheNearestReachablePlace) {
@@ -174,8 +190,7 @@ TEST(Navigator, UnreachableGoalGivesTheReasonAndTheNearestReachablePlace) {
   EXPECT_LE(answer.iterations, 600 + 4);
   EXPECT_NE(answer.reason.find("no path"), std::string::npos);
   ASSERT_TRUE(answer.nearest_reachable.has_value());
-  EXPECT_TRUE(SegmentChecker(query.map, query.box)
-                  .isFree(*answer.nearest_reachable, *answer.nearest_reachable));
+  EXPECT_TRUE(map::ConfigurationSpace(query.box, query.map).isFree(*answer.nearest_reachable));
   EXPECT_NEAR(answer.nearest_reachable->y(), 6.1, 1.5);  // at the wall between the halls
   EXPECT_LT(answer.nearest_reachable->y(), 6.2);
 }
@@ -215,7 +230,7 @@ TEST(Navigator, StartThatTouchesAnObstacleIsLeftByAShortStep) {
   EXPECT_EQ(answer.path.front().position, query.start.position);
   EXPECT_LE(distance(answer.path[0], answer.path[1]), 0.6 + 1e-9);
   const Path rest(answer.path.begin() + 1, answer.path.end());
-  EXPECT_TRUE(checkPath(*query.map, rest, query.box, {}, {}).isFree());
+  EXPECT_TRUE(isKnownFree(query, rest, query.box));
 }
 
 TEST(Navigator, BadQueriesBreakTheContract) {

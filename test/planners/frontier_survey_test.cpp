@@ -113,7 +113,10 @@ TEST_F(SeenCorridor, MeasuresTheClearanceOfEveryVoxel) {
 
 class Sampling : public SeenCorridor {
  protected:
-  Sampling() : navigator_({}), space_(world_.request, world_.robot, navigator_) {
+  Sampling()
+      : navigator_({}),
+        boxes_(world_.robot.box_m),
+        space_(world_.request, world_.robot, navigator_, boxes_) {
     here_ = vertexAt(8.0);
     survey_.refresh(graph_);
     survey_.measure(graph_, here_);
@@ -123,6 +126,7 @@ class Sampling : public SeenCorridor {
     return sampler.draw(here_, label(here_), count, region);
   }
   navigation::Navigator navigator_;
+  map::ConfigurationSpace boxes_;
   KnownSpace space_;
   VertexId here_{};
 };

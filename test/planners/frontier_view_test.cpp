@@ -60,7 +60,8 @@ TEST(FrontierView, MeasuresTheClearanceOfAPlace) {
 TEST(PlaceFinder, FindsTheNearestFreePlaceOnItsGrid) {
   const test::FrontierWorld world = seenCorridor();
   navigation::Navigator navigator({});
-  const KnownSpace space(world.request, world.robot, navigator);
+  map::ConfigurationSpace boxes(world.robot.box_m);
+  const KnownSpace space(world.request, world.robot, navigator, boxes);
   const PlaceFinder places(1.5, 0.25);
   const Eigen::Vector3d inside(4.0, 2.5, 2.5);
   EXPECT_EQ(*places.find(inside, space.free()), inside);
@@ -76,7 +77,8 @@ TEST(PlaceFinder, FindsTheNearestFreePlaceOnItsGrid) {
 TEST(KnownSpace, LeavesOutWaypointsOnlyWhereAFreeWayLeadsPastThem) {
   const test::FrontierWorld world = seenCorridor();
   navigation::Navigator navigator({});
-  const KnownSpace space(world.request, world.robot, navigator);
+  map::ConfigurationSpace boxes(world.robot.box_m);
+  const KnownSpace space(world.request, world.robot, navigator, boxes);
   const graph::Polyline zigzag{{2.5, 2.0, 2.5}, {3.5, 3.0, 2.5}, {4.5, 2.0, 2.5}, {5.5, 3.0, 2.5}};
   ASSERT_TRUE(space.isFree(zigzag));
   EXPECT_EQ(space.shortened(zigzag, 20.0), (graph::Polyline{zigzag.front(), zigzag.back()}));

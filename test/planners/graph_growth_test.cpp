@@ -17,6 +17,7 @@ class FlownCorridor : public ::testing::Test {
       : world_(test::corridorWorld(40.0)),
         view_(world_.robot, test::FrontierWorld::kResolution_m, {4.0, {0.0, 0.0}}),
         navigator_({}),
+        boxes_(world_.robot.box_m),
         growth_(params_) {
     world_.request.home.position = {3.0, 2.5, 2.5};
     flyTo(3.0, 3.0);
@@ -30,7 +31,7 @@ class FlownCorridor : public ::testing::Test {
     view_.look(world_.request.map);
   }
   VertexId grow() {
-    KnownSpace space(world_.request, world_.robot, navigator_);
+    KnownSpace space(world_.request, world_.robot, navigator_, boxes_);
     const FrontierSurvey survey(view_, world_.request, params_);
     return growth_.grow(world_.request, world_.request.pose.position, survey, space);
   }
@@ -40,6 +41,7 @@ class FlownCorridor : public ::testing::Test {
   test::FrontierWorld world_;
   FrontierView view_;
   navigation::Navigator navigator_;
+  map::ConfigurationSpace boxes_;
   GraphGrowth growth_;
   double now_s_ = 0.0;
 };
@@ -72,7 +74,7 @@ TEST_F(FlownCorridor, IsTheSameGraphForTheSameFlight) {
   FlownCorridor::flyTo(4.0, 12.0);
   grow();
   GraphGrowth other(params_);
-  KnownSpace space(world_.request, world_.robot, navigator_);
+  KnownSpace space(world_.request, world_.robot, navigator_, boxes_);
   const FrontierSurvey survey(view_, world_.request, params_);
   other.grow(world_.request, world_.request.pose.position, survey, space);
   EXPECT_EQ(other.graph().graph().edges(), graph().graph().edges());
@@ -84,7 +86,7 @@ TEST_F(FlownCorridor, LeadsABlockedWayAnotherWayOrNone) {
   flyTo(4.0, 10.0);
   const VertexId end = grow();
   {
-    KnownSpace space(world_.request, world_.robot, navigator_);
+    KnownSpace space(world_.request, world_.robot, navigator_, boxes_);
     const graph::Polyline way = growth_.freeWay(end, ReachabilityGraph::home(), space);
     EXPECT_TRUE(space.isFree(way));
     EXPECT_NEAR(graph::lengthOf(way), 7.0, 0.5);
@@ -92,14 +94,14 @@ TEST_F(FlownCorridor, LeadsABlockedWayAnotherWayOrNone) {
   world_.request.zones.push_back({"pillar", {{6.0, 1.0}, {6.5, 1.0}, {6.5, 2.6}, {6.0, 2.6}}});
   growth_.forgetChecksNear({6.0, 2.5, 2.5}, 20.0);
   {
-    KnownSpace space(world_.request, world_.robot, navigator_);
+    KnownSpace space(world_.request, world_.robot, navigator_, boxes_);
     const graph::Polyline way = growth_.freeWay(end, ReachabilityGraph::home(), space);
     ASSERT_FALSE(way.empty()) << "there is room beside the pillar";
     EXPECT_TRUE(space.isFree(way));
   }
   world_.request.zones.push_back({"wall", {{7.0, 0.0}, {7.5, 0.0}, {7.5, 5.0}, {7.0, 5.0}}});
   growth_.forgetChecksNear({7.0, 2.5, 2.5}, 20.0);
-  KnownSpace space(world_.request, world_.robot, navigator_);
+  KnownSpace space(world_.request, world_.robot, navigator_, boxes_);
   EXPECT_TRUE(growth_.freeWay(end, ReachabilityGraph::home(), space).empty());
 }
 
@@ -116,7 +118,7 @@ TEST_F(FlownCorridor, ScoutingAddsVerticesForFrontierInNoBox) {
   InformedParams near_sighted = params_;
   near_sighted.range_m = 1.5;  // the sensor sees 6 m
   GraphGrowth growth(near_sighted);
-  KnownSpace space(world_.request, world_.robot, navigator_);
+  KnownSpace space(world_.request, world_.robot, navigator_, boxes_);
   const FrontierSurvey survey(view_, world_.request, near_sighted);
   const VertexId home = growth.grow(world_.request, {3.0, 2.5, 2.5}, survey, space);
   Scouting scouting(near_sighted);

@@ -28,7 +28,7 @@ struct NavigationParams {
   template <class Visitor>
   void visit(Visitor&& field) {
     field("method", method, Bounds{},
-          "adaptive (A-NAV: known space where the goal is known) or plain (R-NAV)",
+          "adaptive (A-NAV), plain (R-NAV) or plain_short (R-NAV with shortened paths)",
           Audience::kUser);
     field("safe_distance_m", safe_distance_m, Bounds{0.0, 5.0},
           "kept between the robot's box and obstacles where that is possible", Audience::kUser);
@@ -109,11 +109,14 @@ struct NavigationAnswer {
 /// end a mission.
 ///
 /// "plain" is R-NAV, what the paper compares with: RRT-Connect through free and unknown space alike
-/// with samples from the whole box around what is known, start and goal, without safe distance.
+/// with samples from the whole box around what is known, start and goal, without safe distance and
+/// as it comes: no straight line is tried first and nothing is shortened. "plain_short" is the same
+/// with both, which the paper does not have: a stronger thing to compare with.
 ///
-/// Both shorten the path by OMPL's path simplification under the same rules as the search. The same
-/// query gives the same answer, unless its time limit cuts it short. Keeps the inflated grids
-/// between queries of the same map and box. Not thread-safe.
+/// Paths are shortened by OMPL's path simplification under the same rules as the search. The same
+/// query gives the same answer, unless its time limit cuts it short. Keeps what it
+/// inflated between queries with the same box; of another map only what changed is done again. Not
+/// thread-safe.
 class Navigator {
  public:
   /// Throws Precondition if the parameters have problems().

@@ -76,7 +76,7 @@ struct FrontierPlanner::Search {
       : planner(owner),
         request(asked),
         params(owner.params_),
-        space(asked, owner.robot_, owner.navigator_) {}
+        space(asked, owner.robot_, owner.navigator_, owner.boxes_) {}
 
   [[nodiscard]] bool ranksByUtility() const { return planner.preference_ == Preference::kUtility; }
 
@@ -296,6 +296,7 @@ FrontierPlanner::FrontierPlanner(const FrontierPlannerParams& params, Preference
       robot_(robot),
       view_(robot, resolution_m, {params.range_m, {params.closing_height_m, params.growth_m}}),
       navigator_(navigationParams(params)),
+      boxes_(robot.box_m),
       tried_(params.tried_radius_m) {
   require(kindOf(robot) == RobotKind::kAerial, "FrontierPlanner: for robots that fly");
 }

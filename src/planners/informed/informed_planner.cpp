@@ -59,7 +59,7 @@ struct InformedPlanner::Search {
       : planner(owner),
         request(asked),
         params(owner.params_),
-        space(asked, owner.robot_, owner.navigator_),
+        space(asked, owner.robot_, owner.navigator_, owner.boxes_),
         survey(owner.view_, asked, owner.params_) {}
 
   [[nodiscard]] bool findRoot() {
@@ -297,6 +297,7 @@ InformedPlanner::InformedPlanner(const InformedParams& params, const RobotModel&
       robot_(robot),
       view_(robot, resolution_m, viewParams(params)),
       navigator_(navigationParams(params)),
+      boxes_(robot.box_m),
       growth_(params),
       scouting_(params),
       tried_(params.tried_radius_m) {

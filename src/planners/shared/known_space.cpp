@@ -3,14 +3,16 @@
 namespace spelunk::planners {
 
 KnownSpace::KnownSpace(const PlanRequest& request, const RobotModel& robot,
-                       navigation::Navigator& navigator)
+                       navigation::Navigator& navigator, map::ConfigurationSpace& boxes)
     : request_(request),
       robot_(robot),
       navigator_(navigator),
-      checker_(std::make_unique<navigation::SegmentChecker>(request.map, robot.box_m)),
-      free_([this](const Eigen::Vector3d& a,
-                   const Eigen::Vector3d& b) { return checker_->sweep(a, b); },
-            robot.box_m, request.bounds, request.zones) {}
+      boxes_(boxes),
+      free_(
+          [this](const Eigen::Vector3d& a, const Eigen::Vector3d& b) { return boxes_.sweep(a, b); },
+          robot.box_m, request.bounds, request.zones) {
+  boxes_.use(request.map);
+}
 
 bool KnownSpace::isFree(const graph::Polyline& line) const {
   for (std::size_t i = 1; i < line.size(); ++i)

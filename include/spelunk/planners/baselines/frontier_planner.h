@@ -58,6 +58,7 @@ class FrontierPlanner final : public ExplorationPlanner {
   RobotModel robot_;
   FrontierView view_;
   navigation::Navigator navigator_;
+  map::ConfigurationSpace boxes_;
   TriedTargets tried_;
   Visits visits_;
   std::optional<Target> target_;

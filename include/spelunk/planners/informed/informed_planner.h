@@ -52,6 +52,7 @@ class InformedPlanner final : public ExplorationPlanner {
   RobotModel robot_;
   FrontierView view_;
   navigation::Navigator navigator_;
+  map::ConfigurationSpace boxes_;
   GraphGrowth growth_;
   Scouting scouting_;
   TriedTargets tried_;

@@ -1,22 +1,21 @@
 #pragma once
 
-#include <memory>
-
 #include "spelunk/common/robot_model.h"
 #include "spelunk/graph/path_similarity.h"
+#include "spelunk/map/configuration_space.h"
 #include "spelunk/navigation/navigator.h"
-#include "spelunk/navigation/swept_path_check.h"
 #include "spelunk/planners/exploration_planner.h"
 #include "spelunk/planners/shared/free_space.h"
 
 namespace spelunk::planners {
 
 /// The known free space of one request, everywhere in the map: where the robot's box may be, and
-/// ways through it by navigation. Refers to the request, the robot and the navigator, which must
-/// outlive it.
+/// ways through it by navigation. Refers to all it is made of, which must outlive it.
 class KnownSpace {
  public:
-  KnownSpace(const PlanRequest& request, const RobotModel& robot, navigation::Navigator& navigator);
+  /// `boxes`: kept from plan to plan, for the robot's box; it is told the request's map.
+  KnownSpace(const PlanRequest& request, const RobotModel& robot, navigation::Navigator& navigator,
+             map::ConfigurationSpace& boxes);
   KnownSpace(const KnownSpace&) = delete;  // its free space refers to its checker
   KnownSpace& operator=(const KnownSpace&) = delete;
 
@@ -35,7 +34,7 @@ class KnownSpace {
   const PlanRequest& request_;
   const RobotModel& robot_;
   navigation::Navigator& navigator_;
-  std::unique_ptr<navigation::SegmentChecker> checker_;
+  map::ConfigurationSpace& boxes_;
   FreeSpace free_;
 };
 
