@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <mutex>
 #include <optional>
 
@@ -211,7 +212,7 @@ void countTreeOnce(const RayTree& tree, const std::vector<std::int32_t>& offsets
   const bool is_all_reachable =
       reachable.contains(tree.extent().first) && reachable.contains(tree.extent().last);
   const std::uint32_t* after = tree.after().data();
-  std::array<int, 3> counts{};
+  std::array<int, 3> counts{};  // by status
   for (std::uint32_t i = 0; i < offsets.size();) {
     const TemplateRays::Step& step = tree.steps()[i];
     if (!is_all_reachable && !reachable.contains({step[0], step[1], step[2]})) {
@@ -219,13 +220,13 @@ void countTreeOnce(const RayTree& tree, const std::vector<std::int32_t>& offsets
       continue;
     }
     const std::size_t at = start + static_cast<std::size_t>(static_cast<std::int64_t>(offsets[i]));
-    const std::uint8_t cell = cells[at];
-    if (seen.add(at)) ++counts[cell];
-    i = cell == kOccupiedCell ? after[i] : i + 1;
+    const std::uint8_t status = cells[at];
+    if (seen.add(at)) ++counts[status];
+    i = static_cast<Occupancy>(status) == Occupancy::kOccupied ? after[i] : i + 1;
   }
-  gain.unknown_voxels += counts[kUnknownCell];
+  gain.unknown_voxels += counts[static_cast<std::size_t>(Occupancy::kUnknown)];
   gain.free_voxels += counts[static_cast<std::size_t>(Occupancy::kFree)];
-  gain.occupied_voxels += counts[kOccupiedCell];
+  gain.occupied_voxels += counts[static_cast<std::size_t>(Occupancy::kOccupied)];
 }
 
 }  // namespace
