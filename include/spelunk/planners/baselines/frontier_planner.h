@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "spelunk/common/robot_model.h"
+#include "spelunk/map/configuration_space.h"
 #include "spelunk/navigation/navigator.h"
 #include "spelunk/planners/baselines/frontier_planner_params.h"
 #include "spelunk/planners/exploration_planner.h"

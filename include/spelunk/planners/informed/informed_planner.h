@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "spelunk/common/robot_model.h"
+#include "spelunk/map/configuration_space.h"
 #include "spelunk/navigation/navigator.h"
 #include "spelunk/planners/exploration_planner.h"
 #include "spelunk/planners/informed/graph_growth.h"
