@@ -146,15 +146,18 @@ void MissionRun::Impl::begin() {
 /// Sends the robot to the next point. A refusal ends the run as a leg that was not reached.
 void MissionRun::Impl::nextLeg() {
   const GoToLeg& leg = setup.legs[record.legs.size()];
-  auto query = mission.goToQuery(leg.target);
-  if (!query) throw OutsideError("the flight does not start: no odometry");
-  query->rng = Rng(setup.seed).fork("go_to/" + std::to_string(record.legs.size()));
-  const auto answer = navigation::Navigator(leg.navigation).plan(*query);
   GoToRecord begun;
   begun.leg = leg;
   begun.path_length_m = -record.path_length_m;
-  const auto given = mission.goTo(leg.navigation, *query, answer);
-  begun.status = mission.status().go_to;
+  mission::Answer given = mission.mayGoTo(leg.target);
+  navigation::NavigationAnswer answer;
+  if (given.accepted) {
+    auto query = mission.goToQuery(leg.target);
+    query->rng = Rng(setup.seed).fork("go_to/" + std::to_string(record.legs.size()));
+    answer = navigation::Navigator(leg.navigation).plan(*query);
+    given = mission.goTo(leg.navigation, *query, answer);
+    begun.status = mission.status().go_to;
+  }
   if (!given.accepted) {
     begun.status.outcome = mission::GoToOutcome::kUnreachable;
     begun.status.reason = given.reason;

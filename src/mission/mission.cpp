@@ -75,6 +75,10 @@ Answer Mission::emergencyStop() { return impl_->emergencyStop(); }
 Answer Mission::setBounds(const AxisAlignedBox& bounds) { return impl_->setBounds(bounds); }
 Answer Mission::setZones(std::vector<NoGoZone> zones) { return impl_->setZones(std::move(zones)); }
 
+Answer Mission::mayGoTo(const Eigen::Vector3d& point) {
+  const std::string problem = impl_->goToProblem(point);
+  return {problem.empty(), problem};
+}
 std::optional<navigation::NavigationQuery> Mission::goToQuery(const Eigen::Vector3d& point) {
   return impl_->goToQuery(point);
 }

@@ -23,24 +23,32 @@ std::optional<navigation::NavigationQuery> Mission::Impl::goToQuery(const Eigen:
   return query;
 }
 
-std::string Mission::Impl::goToProblem(const navigation::NavigationQuery& query,
-                                       const navigation::NavigationAnswer& answer) {
+std::string Mission::Impl::goToProblem(const Eigen::Vector3d& point) {
+  if (!point.allFinite()) return "the point holds a number that is not finite";
   if (state == MissionState::kEStop) return "emergency stop is on: start releases it";
   if (isFlying()) return "the mission is running: pause it first";
   const std::string problem = startProblem();
   if (!problem.empty()) return problem;
   if (!isAtRest()) return "the robot still moves: wait until it holds";
-  if (answer.status != navigation::NavigationStatus::kOk) return answer.reason;
-  if (distance(query.start, input.latest()->pose) > kStartGap_m)
-    return "the path does not begin where the robot is";
+  const Eigen::Vector3d& here = input.latest()->pose.position;
+  const Eigen::Vector3d home = home_graph ? home_graph->home().position : here;
+  const double there_s = (point - here).norm() / robot.speed_max_mps;
+  const double home_s = (point - home).norm() / robot.speed_max_mps;
+  if (guard.marginAfter(there_s, home_s) < 0.0)
+    return "the point is too far: not even the straight way there and home fits the endurance";
   return "";
 }
 
 Answer Mission::Impl::goTo(const navigation::NavigationParams& navigation_params,
                            const navigation::NavigationQuery& query,
                            const navigation::NavigationAnswer& answer) {
-  const std::string problem = goToProblem(query, answer);
+  const Eigen::Vector3d lift(0.0, 0.0, robot.box_lift_m);
+  const Eigen::Vector3d point = query.goal.position - lift;
+  const std::string problem = goToProblem(point);
   if (!problem.empty()) return {false, problem};
+  if (answer.status != navigation::NavigationStatus::kOk) return {false, answer.reason};
+  if (distance(query.start, input.latest()->pose) > kStartGap_m)
+    return {false, "the path does not begin where the robot is"};
   takeOff();
   refreshWayHome();
   goal = Goal::kGoTo;
@@ -48,7 +56,7 @@ Answer Mission::Impl::goTo(const navigation::NavigationParams& navigation_params
   go_to->job = {navigation_params, query};
   status.go_to = {};
   status.go_to.outcome = GoToOutcome::kUnderway;
-  status.go_to.target = query.goal.position - Eigen::Vector3d(0.0, 0.0, robot.box_lift_m);
+  status.go_to.target = point;
   status.go_to.started_s = now;
   installPlan(answer);
   if (status.go_to.outcome == GoToOutcome::kUnderway)

@@ -99,8 +99,7 @@ struct Mission::Impl {
   [[nodiscard]] std::optional<navigation::NavigationQuery> goToQuery(const Eigen::Vector3d& point);
   Answer goTo(const navigation::NavigationParams& params, const navigation::NavigationQuery& query,
               const navigation::NavigationAnswer& answer);
-  [[nodiscard]] std::string goToProblem(const navigation::NavigationQuery& query,
-                                        const navigation::NavigationAnswer& answer);
+  [[nodiscard]] std::string goToProblem(const Eigen::Vector3d& point);
   void stepGoTo();
   void endGoTo(GoToOutcome outcome, const std::string& why);
   void noteAbortedGoTo();
@@ -179,7 +178,8 @@ struct Mission::Impl {
   void launchHome();
   [[nodiscard]] Path fromMotion(const WayHome& way) const;
   /// The configuration space of a box in the map as it is now.
-  [[nodiscard]] map::ConfigurationSpace& spaceOf(const Eigen::Vector3d& box);
+  [[nodiscard]] map::ConfigurationSpace& spaceOf(
+      const Eigen::Vector3d& box, map::Passable passable = map::Passable::kKnownFree);
   [[nodiscard]] bool isWayClear(const Path& path, const Eigen::Vector3d& box);
   /// The same for the robot's own trail, where marked ground has been walked on.
   [[nodiscard]] bool isTrailClear(const Path& path, const Eigen::Vector3d& box);

@@ -141,8 +141,10 @@ struct Query {
     task.draw = [&](Rng& rng) {
       return drawn(known && rng.uniform() < known_share ? &*known : nullptr, task.region, rng);
     };
-    TreeResult found =
-        growTrees(task, space, asked.rng.fork("trees/" + std::to_string(searches++)));
+    task.is_free = [&](const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
+      return space.isFree(a, b);
+    };
+    TreeResult found = growTrees(task, asked.rng.fork("trees/" + std::to_string(searches++)));
     answer.iterations += found.iterations;
     if (asked.trees == TreeDetail::kKeep) answer.trees = std::move(found.trees);
     if (found.line.empty()) return noteReached(found.reached), false;

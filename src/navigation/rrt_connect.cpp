@@ -66,11 +66,11 @@ class SeededSampler : public ob::StateSampler {
 
 class SweepValidator : public ob::MotionValidator {
  public:
-  SweepValidator(const ob::SpaceInformationPtr& info, SearchSpace* space)
-      : ob::MotionValidator(info), space_(space) {}
+  SweepValidator(const ob::SpaceInformationPtr& info, const TreeTask& task)
+      : ob::MotionValidator(info), task_(task) {}
 
   bool checkMotion(const ob::State* a, const ob::State* b) const override {
-    return space_->isFree(positionOf(a), positionOf(b));
+    return task_.is_free(positionOf(a), positionOf(b));
   }
   bool checkMotion(const ob::State* a, const ob::State* b,
                    std::pair<ob::State*, double>& last_valid) const override {
@@ -81,7 +81,7 @@ class SweepValidator : public ob::MotionValidator {
   }
 
  private:
-  SearchSpace* space_;
+  const TreeTask& task_;
 };
 
 /// OMPL's simplifier, whose own random numbers would differ from run to run.
@@ -94,8 +94,7 @@ class SeededSimplifier : public og::PathSimplifier {
 
 /// One search; lives for one call.
 struct Search {
-  Search(const TreeTask& tree_task, SearchSpace& search_space, Rng stream)
-      : task(tree_task), space(search_space), rng(stream), info(makeInfo()) {}
+  Search(const TreeTask& tree_task, Rng stream) : task(tree_task), rng(stream), info(makeInfo()) {}
 
   ob::SpaceInformationPtr makeInfo() {
     auto states = std::make_shared<ob::RealVectorStateSpace>(3);
@@ -109,9 +108,10 @@ struct Search {
       return std::make_shared<SeededSampler>(of, task, &rng);
     });
     auto made = std::make_shared<ob::SpaceInformation>(states);
-    made->setStateValidityChecker(
-        [this](const ob::State* state) { return space.isFree(positionOf(state)); });
-    made->setMotionValidator(std::make_shared<SweepValidator>(made, &space));
+    made->setStateValidityChecker([this](const ob::State* state) {
+      return task.is_free(positionOf(state), positionOf(state));
+    });
+    made->setMotionValidator(std::make_shared<SweepValidator>(made, task));
     made->setup();
     return made;
   }
@@ -177,7 +177,7 @@ struct Search {
     std::vector<Eigen::Vector3d> kept{line.front()};
     for (std::size_t at = 0; at + 1 < line.size();) {
       std::size_t next = line.size() - 1;
-      while (next > at + 1 && !space.isFree(line[at], line[next])) --next;
+      while (next > at + 1 && !task.is_free(line[at], line[next])) --next;
       kept.push_back(line[next]);
       at = next;
     }
@@ -185,16 +185,15 @@ struct Search {
   }
 
   const TreeTask& task;
-  SearchSpace& space;
   Rng rng;
   ob::SpaceInformationPtr info;
 };
 
 }  // namespace
 
-TreeResult growTrees(const TreeTask& task, SearchSpace& space, Rng rng) {
+TreeResult growTrees(const TreeTask& task, Rng rng) {
   ompl::msg::setLogLevel(ompl::msg::LOG_NONE);
-  return Search(task, space, rng).run();
+  return Search(task, rng).run();
 }
 
 }  // namespace spelunk::navigation

@@ -3,7 +3,7 @@
 #include <functional>
 #include <vector>
 
-#include "search_space.h"
+#include "spelunk/navigation/navigator.h"
 
 namespace spelunk::navigation {
 
@@ -16,6 +16,8 @@ struct TreeTask {
   Eigen::Vector3d goal = Eigen::Vector3d::Zero();
   AxisAlignedBox region;  ///< Finite; holds start and goal.
   std::function<Eigen::Vector3d(Rng&)> draw;
+  /// Whether the robot may go straight from one place to another.
+  std::function<bool(const Eigen::Vector3d&, const Eigen::Vector3d&)> is_free;
   double extension_m = 1.0;
   int iterations = 20000;
   double time_limit_s = 0.0;  ///< May be infinite.
@@ -31,6 +33,6 @@ struct TreeResult {
 
 /// RRT-Connect as OMPL has it, with our draws and checks; the same task and stream give the same
 /// result.
-[[nodiscard]] TreeResult growTrees(const TreeTask& task, SearchSpace& space, Rng rng);
+[[nodiscard]] TreeResult growTrees(const TreeTask& task, Rng rng);
 
 }  // namespace spelunk::navigation

@@ -133,15 +133,13 @@ bool PlannerServices::plan(Plan::Request& /*request*/, Plan::Response& response)
 bool PlannerServices::goTo(GoTo::Request& request, GoTo::Response& response) {
   return answering(response, &GoTo::Response::reason, [&] {
     const Eigen::Vector3d target(request.target.x, request.target.y, request.target.z);
-    if (!target.allFinite()) {
-      response.reason = "the target holds a number that is not finite";
+    const mission::Answer may =
+        core_.with([&](MissionCore& core) { return core.mission.mayGoTo(target); });
+    if (!may.accepted) {
+      response.reason = may.reason;
       return;
     }
     auto query = core_.with([&](MissionCore& core) { return core.mission.goToQuery(target); });
-    if (!query) {
-      response.reason = kNoOdometry;
-      return;
-    }
     query->rng = nextRng("go_to");
     query->time_limit_s = navigation_.planning_time_s;
     const auto found = navigation::Navigator(navigation_).plan(*query);

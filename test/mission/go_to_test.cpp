@@ -1,5 +1,7 @@
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "spelunk/navigation/swept_path_check.h"
 #include "support/scripted_flight.h"
 
@@ -132,6 +134,10 @@ TEST(GoTo, RefusalsSayWhy) {
     return answer.reason;
   };
   EXPECT_NE(refusalOf({10.0, 4.5, 2.5}).find("obstacle"), std::string::npos);
+  EXPECT_NE(flight.scripted.mission().mayGoTo({5000.0, 0.0, 0.0}).reason.find("too far"),
+            std::string::npos);
+  EXPECT_NE(flight.scripted.mission().mayGoTo({NAN, 0.0, 0.0}).reason.find("finite"),
+            std::string::npos);
   ASSERT_TRUE(flight.scripted.mission().setBounds({{0, 0, 0}, {20, 5, 5}}).accepted);
   EXPECT_NE(refusalOf({25.0, 2.5, 2.5}).find("bounds"), std::string::npos);
   NoGoZone zone;

@@ -162,14 +162,17 @@ class Mission {
   Answer setBounds(const AxisAlignedBox& bounds);
   Answer setZones(std::vector<NoGoZone> zones);
 
+  /// Whether the robot may be sent to a point now, as far as that can be told without a plan: it
+  /// stands ready, and even the straight way there and home fits the endurance.
+  [[nodiscard]] Answer mayGoTo(const Eigen::Vector3d& point);
   /// What navigation is to be asked for a way from here to a point (world frame, where the robot's
   /// base is to be); none before the first good odometry. The caller sets `rng`.
   [[nodiscard]] std::optional<navigation::NavigationQuery> goToQuery(const Eigen::Vector3d& point);
-  /// Flies to the goal of a query, beginning with the path it was answered by; only while the
-  /// mission does not run, and only if the answer holds a path. Only what lies in known free space
-  /// is flown, checked like any other path, way home included. More of the path is taken up as it
-  /// comes into view; where the path turns out blocked, or the robot has left it, the mission stops
-  /// and asks for a new one by a job. Holds at the end; see MissionStatus::go_to.
+  /// Flies to the goal of a query, beginning with the path it was answered by; only if mayGoTo()
+  /// and only if the answer holds a path. Only what lies in known free space is flown, checked like
+  /// any other path, way home included. More of the path is taken up as it comes into view; where
+  /// the path turns out blocked, or the robot has left it, the mission stops and asks for a new one
+  /// by a job. Holds at the end; see MissionStatus::go_to.
   Answer goTo(const navigation::NavigationParams& params, const navigation::NavigationQuery& query,
               const navigation::NavigationAnswer& answer);
   /// A plan's request from where the robot is, for plans that are only looked at; none before the
