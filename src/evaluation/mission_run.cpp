@@ -179,8 +179,11 @@ void MissionRun::Impl::noteLeg() {
 }
 
 void MissionRun::Impl::addTimelineRow() {
-  record.timeline.push_back({now(), explored.volume_m3(), record.path_length_m,
-                             simulator.trueState().pose, remaining(), mission.status().state});
+  const Pose pose = simulator.trueState().pose;
+  const double clearance_m =
+      simulator.scene().boxDistance(pose.position, simulator.bodySize(), kClearanceLimit_m);
+  record.timeline.push_back({now(), explored.volume_m3(), record.path_length_m, pose, remaining(),
+                             mission.status().state, clearance_m});
 }
 
 Progress MissionRun::Impl::progress() const {

@@ -50,6 +50,12 @@ std::string timelineText(const std::vector<TimelineRow>& rows) {
   return text;
 }
 
+std::string clearanceText(const std::vector<TimelineRow>& rows) {
+  std::string text = "t_s,clearance_m\n";
+  for (const TimelineRow& row : rows) text += fixed(row.t_s) + "," + fixed(row.clearance_m) + "\n";
+  return text;
+}
+
 std::string planLine(const PlanRow& row) {
   const planners::PlanStats& s = row.result.stats;
   std::string line = fixed(row.t_s) + "," + (row.explore ? "explore" : "home") + "," +
@@ -179,6 +185,7 @@ void requireWritable(const std::string& folder) {
 void writeReport(const std::string& folder, const ReportHeader& header, const RunRecord& record) {
   writeText(folder + "/summary.json", summaryText(header, record));
   writeText(folder + "/timeline.csv", timelineText(record.timeline));
+  writeText(folder + "/clearance.csv", clearanceText(record.timeline));
   writeText(folder + "/plans.csv", plansText(record.plans));
 }
 

@@ -224,14 +224,6 @@ std::vector<PackedKey> touchedChunks(const FrozenMap::Blocks& now,
   return touched;
 }
 
-/// Whether `now` is `before` or came from it by changes: chunks keep their number for life.
-bool isLaterThan(const FrozenMap::Blocks& now, const FrozenMap::Blocks& before) {
-  if (now.chunks.size() < before.chunks.size()) return false;
-  for (std::size_t i = 0; i < before.chunks.size(); ++i)
-    if (now.chunks[i]->key != before.chunks[i]->key) return false;
-  return true;
-}
-
 }  // namespace
 
 struct CredibleMap::Impl {

@@ -43,6 +43,9 @@ struct FrozenMap::Blocks {
   }
 };
 
+/// Whether `now` is `before` or came from it by changes: chunks keep their number for life.
+bool isLaterThan(const FrozenMap::Blocks& now, const FrozenMap::Blocks& before);
+
 /// The next snapshot: shares every chunk of `last` in which no block of `changed` lies.
 std::shared_ptr<const FrozenMap::Blocks> freezeBlocks(const BlockMap& map,
                                                       const std::vector<std::uint32_t>& changed,

@@ -69,6 +69,13 @@ std::shared_ptr<const FrozenMap::Blocks> freezeBlocks(const BlockMap& map,
   return next;
 }
 
+bool isLaterThan(const FrozenMap::Blocks& now, const FrozenMap::Blocks& before) {
+  if (now.chunks.size() < before.chunks.size()) return false;
+  for (std::size_t i = 0; i < before.chunks.size(); ++i)
+    if (now.chunks[i]->key != before.chunks[i]->key) return false;
+  return true;
+}
+
 FrozenMap::FrozenMap(std::shared_ptr<const Blocks> blocks, double resolution_m)
     : blocks_(std::move(blocks)), resolution_m_(resolution_m) {
   require(blocks_ != nullptr, "FrozenMap: no blocks");

@@ -1,9 +1,13 @@
 #include "spelunk/map/volumetric_gain.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
 #include <mutex>
+#include <optional>
 
+#include "ray_tree.h"
 #include "spelunk/common/contract.h"
 #include "template_rays.h"
 #include "voxel_key.h"
@@ -15,7 +19,19 @@ namespace {
 struct CellOffsets {
   VoxelIndex window_size;
   std::vector<std::vector<std::int32_t>> sensors;
+  std::vector<std::vector<std::int32_t>> trees;  ///< By node, where distinct voxels are counted.
 };
+
+std::vector<std::int32_t> offsetsOf(const std::vector<TemplateRays::Step>& steps,
+                                    const VoxelIndex& window_size) {
+  const std::int64_t row = window_size.x();
+  const std::int64_t plane = row * window_size.y();
+  std::vector<std::int32_t> offsets;
+  offsets.reserve(steps.size());
+  for (const TemplateRays::Step& step : steps)
+    offsets.push_back(static_cast<std::int32_t>(step[0] + row * step[1] + plane * step[2]));
+  return offsets;
+}
 
 /// Voxels of the window whose centres lie in `bounds`, relative to `start`.
 TemplateRays::Range reachableFrom(const VoxelIndex& start, const LocalWindow& window,
@@ -46,16 +62,17 @@ class SeenCells {
  public:
   explicit SeenCells(std::size_t cells) {
     if (words().size() < cells / 64 + 1) words().resize(cells / 64 + 1, 0);
+    words_ = words().data();
   }
   ~SeenCells() {
-    for (const std::size_t word : touched_) words()[word] = 0;
+    for (const std::size_t word : touched_) words_[word] = 0;
   }
   SeenCells(const SeenCells&) = delete;
   SeenCells& operator=(const SeenCells&) = delete;
 
   /// Whether the cell is new; it is not the next time.
   bool add(std::size_t cell) {
-    std::uint64_t& word = words()[cell / 64];
+    std::uint64_t& word = words_[cell / 64];
     const std::uint64_t bit = std::uint64_t{1} << (cell % 64);
     if ((word & bit) != 0) return false;
     if (word == 0) touched_.push_back(cell / 64);
@@ -68,6 +85,7 @@ class SeenCells {
     thread_local std::vector<std::uint64_t> words;
     return words;
   }
+  std::uint64_t* words_ = nullptr;
   std::vector<std::size_t> touched_;
 };
 
@@ -187,6 +205,30 @@ void countRayOnce(const std::uint8_t* window, std::size_t start, const std::int3
   }
 }
 
+/// The same for all rays of a tree at once; nodes outside `reachable` end their rays.
+void countTreeOnce(const RayTree& tree, const std::vector<std::int32_t>& offsets,
+                   const TemplateRays::Range& reachable, const std::uint8_t* cells,
+                   std::size_t start, SeenCells& seen, VolumetricGain& gain) {
+  const bool is_all_reachable =
+      reachable.contains(tree.extent().first) && reachable.contains(tree.extent().last);
+  const std::uint32_t* after = tree.after().data();
+  std::array<int, 3> counts{};  // by status
+  for (std::uint32_t i = 0; i < offsets.size();) {
+    const TemplateRays::Step& step = tree.steps()[i];
+    if (!is_all_reachable && !reachable.contains({step[0], step[1], step[2]})) {
+      i = after[i];
+      continue;
+    }
+    const std::size_t at = start + static_cast<std::size_t>(static_cast<std::int64_t>(offsets[i]));
+    const std::uint8_t status = cells[at];
+    if (seen.add(at)) ++counts[status];
+    i = static_cast<Occupancy>(status) == Occupancy::kOccupied ? after[i] : i + 1;
+  }
+  gain.unknown_voxels += counts[static_cast<std::size_t>(Occupancy::kUnknown)];
+  gain.free_voxels += counts[static_cast<std::size_t>(Occupancy::kFree)];
+  gain.occupied_voxels += counts[static_cast<std::size_t>(Occupancy::kOccupied)];
+}
+
 }  // namespace
 
 struct GainEvaluator::Impl {
@@ -200,7 +242,8 @@ struct GainEvaluator::Impl {
   GainCounting counting = GainCounting::kDistinct;
   float depth_voxels = std::numeric_limits<float>::infinity();
   std::vector<TemplateRays> sensors;
-  std::mutex mutex;  ///< Guards `last_offsets` only.
+  std::vector<std::optional<RayTree>> trees;  ///< Where distinct voxels are counted full circle.
+  std::mutex mutex;                           ///< Guards `last_offsets` only.
   std::shared_ptr<const CellOffsets> last_offsets;
 };
 
@@ -210,14 +253,11 @@ std::shared_ptr<const CellOffsets> GainEvaluator::Impl::offsetsFor(const VoxelIn
     return last_offsets;
   auto offsets = std::make_shared<CellOffsets>();
   offsets->window_size = window_size;
-  const std::int64_t row = window_size.x();
-  const std::int64_t plane = row * window_size.y();
-  for (const TemplateRays& sensor : sensors) {
-    std::vector<std::int32_t>& list = offsets->sensors.emplace_back();
-    list.reserve(sensor.steps().size());
-    for (const TemplateRays::Step& step : sensor.steps())
-      list.push_back(static_cast<std::int32_t>(step[0] + row * step[1] + plane * step[2]));
-  }
+  for (const TemplateRays& sensor : sensors)
+    offsets->sensors.push_back(offsetsOf(sensor.steps(), window_size));
+  for (const std::optional<RayTree>& tree : trees)
+    offsets->trees.push_back(tree ? offsetsOf(tree->steps(), window_size)
+                                  : std::vector<std::int32_t>{});
   last_offsets = std::move(offsets);
   return last_offsets;
 }
@@ -233,6 +273,9 @@ void GainEvaluator::Impl::countSensor(std::size_t sensor, const LocalWindow& win
   const TemplateRays::Heading heading = rays.headingAt(yaw);
   const std::size_t start_cell = window.offsetOf(start - window.origin());
   const std::uint8_t* start_cells = window.cells() + start_cell;
+  if (seen != nullptr && trees[sensor])
+    return countTreeOnce(*trees[sensor], offsets.trees[sensor], reachable, window.cells(),
+                         start_cell, *seen, gain);
   std::size_t number = heading.first;
   for (std::size_t i = 0; i < heading.count; ++i) {
     const TemplateRays::Ray& ray = rays.rays()[number];
@@ -266,7 +309,10 @@ GainEvaluator::GainEvaluator(const std::vector<SensorModel>& sensors, double res
   impl_->counting = counting;
   impl_->depth_voxels = static_cast<float>(cone_depth_m / resolution_m);
   for (const SensorModel& sensor : sensors) {
-    impl_->sensors.emplace_back(sensor, resolution_m);
+    const TemplateRays& rays = impl_->sensors.emplace_back(sensor, resolution_m);
+    const bool is_circle = rays.headingAt(0.0).count == rays.rays().size();
+    impl_->trees.emplace_back();
+    if (counting == GainCounting::kDistinct && is_circle) impl_->trees.back().emplace(rays);
     impl_->reach_m =
         std::max(impl_->reach_m, sensor.gain_range_m + sensor.mount_m.norm() + resolution_m);
   }

@@ -1,14 +1,27 @@
 #include "spelunk/planners/factory.h"
 
+#include <optional>
+
 #include "spelunk/common/contract.h"
+#include "spelunk/planners/baselines/frontier_planner.h"
 #include "spelunk/planners/gbplanner/gb_planner.h"
+#include "spelunk/planners/informed/informed_planner.h"
 
 namespace spelunk::planners {
 namespace {
 
-gbplanner::GbPlannerParams gbPlannerParams(ParamTree& tree) {
-  gbplanner::GbPlannerParams params;
-  tree.read("gbplanner", params);
+template <class Params>
+Params paramsOf(const std::string& section, ParamTree& tree) {
+  Params params;
+  tree.read(section, params);
+  return params;
+}
+
+/// The same, its rules between fields checked as well.
+template <class Params>
+Params checkedParamsOf(const std::string& section, ParamTree& tree) {
+  const auto params = paramsOf<Params>(section, tree);
+  for (const std::string& problem : params.problems()) tree.addProblem(section + ": " + problem);
   return params;
 }
 
@@ -18,25 +31,48 @@ gbplanner::GbPlannerParams gbPlannerParams(ParamTree& tree) {
   throw OutsideError("planner \"" + name + "\" is not known; choose one of: " + known);
 }
 
-std::unique_ptr<ExplorationPlanner> makeGbPlanner(ParamTree& tree, const RobotModel& robot,
-                                                  double resolution_m) {
-  const gbplanner::GbPlannerParams params = gbPlannerParams(tree);
-  for (const std::string& problem : params.problems()) tree.addProblem("gbplanner: " + problem);
-  return std::make_unique<gbplanner::GbPlanner>(params, robot, resolution_m);
+std::optional<baselines::Preference> preferenceOf(const std::string& name) {
+  if (name == "frontier_nearest") return baselines::Preference::kNearest;
+  if (name == "frontier_utility") return baselines::Preference::kUtility;
+  return std::nullopt;
+}
+
+void requireFlying(const std::string& name, const RobotModel& robot) {
+  if (kindOf(robot) != RobotKind::kAerial)
+    throw OutsideError("planner \"" + name + "\" is for robots that fly; robot \"" + robot.name +
+                       "\" does not");
 }
 
 }  // namespace
 
-std::vector<std::string> plannerNames() { return {"gbplanner"}; }
+std::vector<std::string> plannerNames() {
+  return {"gbplanner", "informed", "frontier_nearest", "frontier_utility"};
+}
 
 std::vector<ParamDescription> describePlanner(const std::string& name, ParamTree& tree) {
-  if (name == "gbplanner") return describe("gbplanner", gbPlannerParams(tree));
+  if (name == "gbplanner") return describe(name, paramsOf<gbplanner::GbPlannerParams>(name, tree));
+  if (name == "informed") return describe(name, paramsOf<informed::InformedParams>(name, tree));
+  if (preferenceOf(name))
+    return describe(name, paramsOf<baselines::FrontierPlannerParams>(name, tree));
   refuseUnknown(name);
 }
 
 std::unique_ptr<ExplorationPlanner> makePlanner(const std::string& name, ParamTree& tree,
                                                 const RobotModel& robot, double resolution_m) {
-  if (name == "gbplanner") return makeGbPlanner(tree, robot, resolution_m);
+  if (name == "gbplanner")
+    return std::make_unique<gbplanner::GbPlanner>(
+        checkedParamsOf<gbplanner::GbPlannerParams>(name, tree), robot, resolution_m);
+  if (name == "informed") {
+    requireFlying(name, robot);
+    return std::make_unique<informed::InformedPlanner>(
+        checkedParamsOf<informed::InformedParams>(name, tree), robot, resolution_m);
+  }
+  if (const auto preference = preferenceOf(name)) {
+    requireFlying(name, robot);
+    return std::make_unique<baselines::FrontierPlanner>(
+        checkedParamsOf<baselines::FrontierPlannerParams>(name, tree), *preference, robot,
+        resolution_m);
+  }
   refuseUnknown(name);
 }
 

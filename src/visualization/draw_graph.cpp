@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <utility>
 
 #include "spelunk/visualization/draw.h"
 
@@ -15,6 +16,8 @@ struct LayerLook {
 };
 
 LayerLook lookOf(const std::string& layer) {
+  if (layer == "reachability") return {{0.85F, 0.85F, 0.85F, 0.6F}, 0.04, 0.45};
+  if (layer == "samples") return {{0.9F, 0.9F, 0.9F, 0.3F}, 0.02, 0.35};
   if (layer == "global") return {{0.95F, 0.75F, 0.2F, 0.35F}, 0.03, 0.3};
   return {{0.35F, 0.6F, 0.9F, 0.25F}, 0.02, 0.18};
 }
@@ -48,6 +51,20 @@ void drawGains(const GraphLayer& layer, const LayerLook& look, Scene& scene) {
   scene.add(std::move(gains));
 }
 
+/// The reachability graph of Akbari 2021, Fig. 5: red is to be explored, green is done.
+void drawExploration(const GraphLayer& layer, Scene& scene) {
+  Element vertices;
+  vertices.layer = "explored/" + layer.name;
+  vertices.shape = Shape::kSpheres;
+  vertices.size_m = 0.45;
+  for (const GraphVertex& vertex : layer.vertices) {
+    vertices.points.push_back(vertex.position);
+    vertices.colours.push_back(vertex.is_frontier ? Colour{0.9F, 0.15F, 0.1F, 0.9F}
+                                                  : Colour{0.2F, 0.75F, 0.25F, 0.9F});
+  }
+  scene.add(std::move(vertices));
+}
+
 void drawFrontiers(const GraphLayer& layer, Scene& scene) {
   Element frontiers;
   frontiers.layer = "frontier/" + layer.name;
@@ -66,7 +83,10 @@ void drawGraph(const planners::PlannerGraph& graph, Scene& scene) {
     const LayerLook look = lookOf(layer.name);
     drawEdges(layer, look, scene);
     drawGains(layer, look, scene);
-    drawFrontiers(layer, scene);
+    if (layer.name == "reachability")
+      drawExploration(layer, scene);
+    else
+      drawFrontiers(layer, scene);
   }
 }
 

@@ -70,4 +70,30 @@ void drawRobot(const Pose& pose, const Eigen::Vector3d& box_m, Scene& scene) {
   scene.add(std::move(heading));
 }
 
+void drawNavigation(const navigation::NavigationAnswer& answer, Scene& scene) {
+  Element trees;
+  trees.layer = "navigation/trees";
+  trees.shape = Shape::kLineList;
+  trees.size_m = 0.02;
+  trees.colours = {{0.6F, 0.6F, 0.75F, 0.5F}};
+  for (const auto& [from, to] : answer.trees.edges) {
+    trees.points.push_back(answer.trees.vertices[from]);
+    trees.points.push_back(answer.trees.vertices[to]);
+  }
+  scene.add(std::move(trees));
+  const double length_m = lengthOf(answer.path);
+  const auto addPart = [&](const char* layer, double from_m, double to_m, const Colour& colour) {
+    if (answer.path.empty() || to_m <= from_m) return;
+    Element part;
+    part.layer = layer;
+    part.shape = Shape::kLineStrip;
+    part.size_m = 0.12;
+    part.colours = {colour};
+    for (const Pose& pose : slice(answer.path, from_m, to_m)) part.points.push_back(pose.position);
+    scene.add(std::move(part));
+  };
+  addPart("navigation/known", 0.0, answer.known_length_m, {0.15F, 0.7F, 0.3F, 1.0F});
+  addPart("navigation/unknown", answer.known_length_m, length_m, {0.95F, 0.6F, 0.1F, 1.0F});
+}
+
 }  // namespace spelunk::visualization

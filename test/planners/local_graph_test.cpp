@@ -94,8 +94,7 @@ TEST_F(AKnownCorridor, SamplesOnlyKnownFreeSpaceOfTheBox) {
     EXPECT_EQ(frozen_->at(point), map::Occupancy::kFree);
     EXPECT_TRUE(box.contains(point));
   }
-  EXPECT_FALSE(
-      map::FreeVoxels(frozen_, {{0.0, 0.0, 0.0}, {0.9, 5.0, 5.0}}).draw(rng).has_value());
+  EXPECT_FALSE(map::FreeVoxels(frozen_, {{0.0, 0.0, 0.0}, {0.9, 5.0, 5.0}}).draw(rng).has_value());
 }
 
 }  // namespace

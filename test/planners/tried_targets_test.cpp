@@ -1,8 +1,10 @@
-#include "spelunk/planners/gbplanner/tried_targets.h"
+#include "spelunk/planners/shared/tried_targets.h"
 
 #include <gtest/gtest.h>
 
-namespace spelunk::planners::gbplanner {
+#include "spelunk/planners/shared/visits.h"
+
+namespace spelunk::planners {
 namespace {
 
 const Eigen::Vector3d kTarget(5.0, 0.0, 1.0);
@@ -33,11 +35,43 @@ TEST(TriedTargets, DoNotAddUpDifferentReasons) {
   EXPECT_FALSE(tried.findRefusal(kTarget).has_value());
 }
 
+TEST(TriedTargets, GiveUpAtOnceWhatWasReachedInVain) {
+  TriedTargets tried(3.0);
+  tried.giveUp(kTarget, "nothing new was seen from there");
+  ASSERT_TRUE(tried.findRefusal(kTarget + Eigen::Vector3d(0.0, 2.0, 0.0)).has_value());
+  EXPECT_NE(tried.findRefusal(kTarget)->find("nothing new"), std::string::npos);
+  EXPECT_FALSE(tried.findRefusal(kTarget + Eigen::Vector3d(0.0, 4.0, 0.0)).has_value());
+}
+
 TEST(TriedTargets, NeedOneRefusalForABudgetThatOnlyShrinks) {
   TriedTargets tried(3.0);
   tried.note(kTarget, PathOutcome::kRejectedBudget, "no way home fits");
   EXPECT_TRUE(tried.findRefusal(kTarget).has_value());
 }
 
+TEST(Visits, AreMadeWhenTheRobotComesByAndNotBefore) {
+  Visits visits;
+  visits.expect({kTarget, kTarget, 30.0, 100.0});
+  PlanRequest request;
+  request.pose.position = kTarget;  // the next path begins there, the robot is still on its way
+  request.last_outcome = PathOutcome::kReplaced;
+  request.trail = {{99.0, {kTarget, 0.0}}, {105.0, {kTarget - Eigen::Vector3d(2, 0, 0), 0.0}}};
+  EXPECT_TRUE(visits.takeMade(request).empty());
+  request.trail.push_back({108.0, {kTarget + Eigen::Vector3d(0, 0.4, 0), 0.0}});
+  const auto made = visits.takeMade(request);
+  ASSERT_EQ(made.size(), 1U);
+  EXPECT_EQ(made[0].gain_m3, 30.0);
+  EXPECT_TRUE(visits.takeMade(request).empty()) << "told twice";
+}
+
+TEST(Visits, AreMadeWhenTheRobotStandsThere) {
+  Visits visits;
+  visits.expect({kTarget, kTarget, 30.0, 100.0});
+  PlanRequest request;
+  request.pose.position = kTarget;
+  request.last_outcome = PathOutcome::kReached;
+  EXPECT_EQ(visits.takeMade(request).size(), 1U);
+}
+
 }  // namespace
-}  // namespace spelunk::planners::gbplanner
+}  // namespace spelunk::planners

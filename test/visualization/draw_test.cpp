@@ -149,5 +149,36 @@ TEST(StatusText, EndReasonWinsOverTheNewestReason) {
   EXPECT_EQ(statusText(status).find("old"), std::string::npos);
 }
 
+TEST(DrawGraph, ShowsWhatIsExploredGreenAndWhatIsNotRed) {
+  planners::GraphLayer layer{"reachability", {}, {{0, 1}}};
+  layer.vertices.push_back({{0.0, 0.0, 0.0}, 0.0, true});
+  layer.vertices.push_back({{1.0, 0.0, 0.0}, 0.0, false});
+  Scene scene;
+  drawGraph({{layer}}, scene);
+  const auto drawn = scene.layer("explored/reachability");
+  ASSERT_EQ(drawn.size(), 1U);
+  ASSERT_EQ(drawn[0]->colours.size(), 2U);
+  EXPECT_GT(drawn[0]->colours[0].r, drawn[0]->colours[0].g);
+  EXPECT_GT(drawn[0]->colours[1].g, drawn[0]->colours[1].r);
+  EXPECT_TRUE(scene.layer("frontier/reachability").empty());
+  EXPECT_EQ(scene.layer("graph/reachability").size(), 1U);
+}
+
+TEST(DrawNavigation, SplitsThePathWhereKnownSpaceEnds) {
+  navigation::NavigationAnswer answer;
+  answer.path = {{{0.0, 0.0, 0.0}, 0.0}, {{10.0, 0.0, 0.0}, 0.0}};
+  answer.known_length_m = 4.0;
+  answer.trees = {{{0.0, 0.0, 0.0}, {1.0, 1.0, 0.0}}, {{0, 1}}};
+  Scene scene;
+  drawNavigation(answer, scene);
+  EXPECT_EQ(scene.layer("navigation/trees")[0]->points.size(), 2U);
+  EXPECT_EQ(scene.layer("navigation/known")[0]->points.back(), Eigen::Vector3d(4.0, 0.0, 0.0));
+  EXPECT_EQ(scene.layer("navigation/unknown")[0]->points.front(), Eigen::Vector3d(4.0, 0.0, 0.0));
+  answer.known_length_m = 10.0;
+  Scene known;
+  drawNavigation(answer, known);
+  EXPECT_TRUE(known.layer("navigation/unknown").empty());
+}
+
 }  // namespace
 }  // namespace spelunk::visualization

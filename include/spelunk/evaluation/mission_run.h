@@ -21,6 +21,7 @@ struct TimelineRow {
   Pose pose;                ///< True.
   double remaining_s = 0.0;
   mission::MissionState state = mission::MissionState::kIdle;
+  double clearance_m = 0.0;  ///< Of the robot's body to the mesh, at most 5.
 };
 
 /// One plan and what became of it at the mission's own check.

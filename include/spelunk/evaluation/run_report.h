@@ -29,8 +29,9 @@ struct Spread {
 /// Makes the folder and tries to write into it. Throws OutsideError with path and remedy.
 void requireWritable(const std::string& folder);
 
-/// summary.json, timeline.csv, plans.csv. Numbers have fixed decimals, so that the same run writes
-/// the same bytes (wall times stand in summary.json and plans.csv only). Throws OutsideError.
+/// summary.json, timeline.csv, clearance.csv, plans.csv. Numbers have fixed decimals, so that the
+/// same run writes the same bytes (wall times stand in summary.json and plans.csv only). Throws
+/// OutsideError.
 void writeReport(const std::string& folder, const ReportHeader& header, const RunRecord& record);
 
 /// Peak resident memory of this process, megabytes.

@@ -6,6 +6,7 @@
 #include "spelunk/common/box.h"
 #include "spelunk/common/path.h"
 #include "spelunk/mission/mission.h"
+#include "spelunk/navigation/navigator.h"
 #include "spelunk/planners/exploration_planner.h"
 #include "spelunk/visualization/scene.h"
 
@@ -13,8 +14,13 @@ namespace spelunk::visualization {
 
 /// Each layer of a planner's graph: "graph/<name>" holds its edges, "gain/<name>" its vertices
 /// with a gain, coloured from blue (little) to red (the most in this layer), and
-/// "frontier/<name>" its frontier vertices.
+/// "frontier/<name>" its frontier vertices. The layer "reachability" has "explored/reachability"
+/// instead of the last: red vertices are not explored, green ones are.
 void drawGraph(const planners::PlannerGraph& graph, Scene& scene);
+
+/// What a navigation query found: its trees (layer "navigation/trees") and its path, in two colours
+/// where it leads through known space ("navigation/known") and beyond ("navigation/unknown").
+void drawNavigation(const navigation::NavigationAnswer& answer, Scene& scene);
 
 /// The path the robot follows (layer "path"), coloured by its kind, its end marked.
 void drawActivePath(const Path& path, planners::PathKind kind, Scene& scene);

@@ -74,6 +74,7 @@ std::vector<Row> mapRows(const MineWalk& walk);
 std::vector<Row> statusRows(KnownMine& mine);
 std::vector<Row> edgeRows(KnownMine& mine);
 std::vector<Row> gainRows(KnownMine& mine);
+std::vector<Row> frontierRows(const MineWalk& walk, KnownMine& mine);
 std::vector<Row> planRows(KnownMine& mine);
 std::vector<Row> lidarRows(const MineWalk& walk);
 std::vector<Row> terrainRows(const MineWalk& walk);

@@ -31,6 +31,7 @@ bool run(const std::string& mesh_path, const std::string& only) {
       {"status", [&] { return statusRows(known()); }},
       {"edge", [&] { return edgeRows(known()); }},
       {"gain", [&] { return gainRows(known()); }},
+      {"frontier", [&] { return frontierRows(walk, known()); }},
       {"plan", [&] { return planRows(known()); }},
       {"lidar", [&] { return lidarRows(walk); }},
       {"terrain", [&] { return terrainRows(walk); }},
@@ -61,7 +62,7 @@ int main(int argc, char** argv) {
       ->required();
   app.add_option("--only", only, "one group of rows")
       ->check(CLI::IsMember(
-          {"map", "status", "edge", "gain", "plan", "lidar", "terrain", "navigation"}));
+          {"map", "status", "edge", "gain", "frontier", "plan", "lidar", "terrain", "navigation"}));
   CLI11_PARSE(app, argc, argv);
   if (!std::filesystem::exists(mesh)) {
     std::cout << "skipped: no mesh at '" << mesh << "'" << std::endl;

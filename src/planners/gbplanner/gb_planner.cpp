@@ -10,6 +10,7 @@
 #include "spelunk/planners/gbplanner/global_search.h"
 #include "spelunk/planners/gbplanner/improve_path.h"
 #include "spelunk/planners/gbplanner/plan_view.h"
+#include "spelunk/planners/shared/flight_line.h"
 #include "spelunk/planners/shared/free_start.h"
 
 namespace spelunk::planners::gbplanner {
@@ -23,25 +24,6 @@ GlobalGraphLimits limitsFrom(const GbPlannerParams& params) {
   limits.connect_radius_m = params.global_radius_m;
   limits.frontier_spacing_m = params.frontier_spacing_m;
   return limits;
-}
-
-/// Poses along a line that look where they go; the first keeps its heading.
-Path toPath(const Polyline& line, const Pose& start) {
-  Path path{start};
-  for (std::size_t i = 1; i < line.size(); ++i) {
-    const Eigen::Vector3d step = line[i] - line[i - 1];
-    constexpr double kUpright = 1e-6;  // no heading in a vertical step
-    const double yaw =
-        step.head<2>().norm() > kUpright ? std::atan2(step.y(), step.x()) : path.back().yaw;
-    path.push_back({line[i], yaw});
-  }
-  return path;
-}
-
-Polyline toLine(const Path& path) {
-  Polyline line;
-  for (const Pose& pose : path) line.push_back(pose.position);
-  return line;
 }
 
 double longestRange(const RobotModel& robot) {

@@ -1,28 +1,12 @@
 #include "spelunk/planners/shared/free_start.h"
 
-#include <algorithm>
-#include <vector>
+#include "spelunk/planners/shared/free_place.h"
 
 namespace spelunk::planners {
 namespace {
 
-constexpr double kReach = 0.6;  // metres the search may begin beside the robot
-constexpr int kSteps = 4;       // of the grid of candidates, each way
-
-std::vector<Eigen::Vector3d> offsetsByDistance() {
-  std::vector<Eigen::Vector3d> offsets;
-  for (int x = -kSteps; x <= kSteps; ++x) {
-    for (int y = -kSteps; y <= kSteps; ++y) {
-      for (int z = -kSteps; z <= kSteps; ++z) {
-        const Eigen::Vector3d offset = Eigen::Vector3d(x, y, z) * (kReach / kSteps);
-        if (offset.norm() <= kReach) offsets.push_back(offset);
-      }
-    }
-  }
-  std::stable_sort(offsets.begin(), offsets.end(),
-                   [](const auto& a, const auto& b) { return a.squaredNorm() < b.squaredNorm(); });
-  return offsets;
-}
+constexpr double kReach_m = 0.6;  // the search may begin this far beside the robot
+constexpr double kStep_m = 0.15;
 
 }  // namespace
 
@@ -32,10 +16,8 @@ StartCheck checkStart(const PlanRequest& request, const FreeSpace& space) {
   if (here == Rejection::kNone) return {position, PlanStatus::kOk, ""};
   if (here == Rejection::kOutOfBounds)
     return {std::nullopt, PlanStatus::kOutOfBounds, "the start lies outside the bounds"};
-  for (const Eigen::Vector3d& offset : offsetsByDistance()) {
-    if (space.at(position + offset) == Rejection::kNone)
-      return {position + offset, PlanStatus::kOk, ""};
-  }
+  if (const auto near = PlaceFinder(kReach_m, kStep_m).find(position, space))
+    return {near, PlanStatus::kOk, ""};
   if (here == Rejection::kNoGo)
     return {std::nullopt, PlanStatus::kOutOfBounds, "the start lies inside a no-go zone"};
   const char* reason =

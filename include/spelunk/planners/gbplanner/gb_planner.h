@@ -12,7 +12,7 @@
 #include "spelunk/planners/gbplanner/gb_planner_params.h"
 #include "spelunk/planners/gbplanner/global_graph.h"
 #include "spelunk/planners/gbplanner/local_search.h"
-#include "spelunk/planners/gbplanner/tried_targets.h"
+#include "spelunk/planners/shared/tried_targets.h"
 
 namespace spelunk::planners::gbplanner {
 

@@ -6,7 +6,7 @@
 #include "spelunk/graph/path_similarity.h"
 #include "spelunk/planners/gbplanner/local_graph.h"
 #include "spelunk/planners/gbplanner/plan_view.h"
-#include "spelunk/planners/gbplanner/tried_targets.h"
+#include "spelunk/planners/shared/tried_targets.h"
 
 namespace spelunk::planners::gbplanner {
 

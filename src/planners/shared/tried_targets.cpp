@@ -1,8 +1,8 @@
-#include "spelunk/planners/gbplanner/tried_targets.h"
+#include "spelunk/planners/shared/tried_targets.h"
 
 #include <algorithm>
 
-namespace spelunk::planners::gbplanner {
+namespace spelunk::planners {
 namespace {
 
 /// Failures after which a target is given up; 0: the outcome is none. A way that was cut by a newly
@@ -33,21 +33,25 @@ void TriedTargets::note(const Eigen::Vector3d& target, PathOutcome outcome,
     return entry.outcome == outcome && (entry.target - target).norm() < radius_m_;
   });
   if (known == entries_.end()) {
-    entries_.push_back({target, outcome, reason, 1});
+    entries_.push_back({target, outcome, reason, 1, false});
   } else {
     ++known->failures;
     known->reason = reason;
   }
 }
 
+void TriedTargets::giveUp(const Eigen::Vector3d& target, const std::string& reason) {
+  entries_.push_back({target, PathOutcome::kNone, reason, 1, true});
+}
+
 std::optional<std::string> TriedTargets::findRefusal(const Eigen::Vector3d& target) const {
   for (const Entry& entry : entries_) {
-    if (entry.failures >= failuresAllowed(entry.outcome) &&
-        (entry.target - target).norm() < radius_m_) {
+    const bool is_over = entry.is_given_up || entry.failures >= failuresAllowed(entry.outcome);
+    if (is_over && (entry.target - target).norm() < radius_m_) {
       return "tried and given up: " + entry.reason;
     }
   }
   return std::nullopt;
 }
 
-}  // namespace spelunk::planners::gbplanner
+}  // namespace spelunk::planners

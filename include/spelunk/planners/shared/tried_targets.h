@@ -7,7 +7,7 @@
 
 #include "spelunk/planners/exploration_planner.h"
 
-namespace spelunk::planners::gbplanner {
+namespace spelunk::planners {
 
 /// Remembers targets whose paths failed, so that none is tried again and again for the same reason.
 class TriedTargets {
@@ -16,6 +16,9 @@ class TriedTargets {
 
   /// Notes what became of a path to `target`. Outcomes that are no failure are ignored.
   void note(const Eigen::Vector3d& target, PathOutcome outcome, const std::string& reason);
+
+  /// Gives a target up at once, whatever became of paths to it.
+  void giveUp(const Eigen::Vector3d& target, const std::string& reason);
 
   /// Why paths to a place near `target` are not to be proposed again; empty if they may be.
   [[nodiscard]] std::optional<std::string> findRefusal(const Eigen::Vector3d& target) const;
@@ -26,9 +29,10 @@ class TriedTargets {
     PathOutcome outcome;
     std::string reason;
     int failures = 0;
+    bool is_given_up = false;
   };
   double radius_m_;
   std::vector<Entry> entries_;
 };
 
-}  // namespace spelunk::planners::gbplanner
+}  // namespace spelunk::planners

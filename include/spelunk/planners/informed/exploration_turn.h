@@ -1,0 +1,62 @@
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <vector>
+
+#include "spelunk/planners/informed/candidates.h"
+#include "spelunk/planners/informed/frontier_survey.h"
+#include "spelunk/planners/informed/graph_growth.h"
+
+namespace spelunk::planners::informed {
+
+/// What a turn decided on.
+struct Choice {
+  Candidate candidate;
+  PathKind kind = PathKind::kLocal;
+};
+
+/// One turn of the exploration manager (Akbari 2021, section VII, Alg. 1, lines 5 to 10): where to
+/// sample, and the best of what was sampled. Lives for one plan.
+class ExplorationTurn {
+ public:
+  ExplorationTurn(GraphGrowth& growth, const FrontierSurvey& survey, CandidateJudge& judge, Rng rng,
+                  std::function<bool(const Candidate&)> fits_budget,
+                  std::function<bool(graph::VertexId)> scout);
+
+  /// The best affordable candidate: of the neighbourhood of `current` if that has any, else of the
+  /// nearest vertices that have, else of vertices that `scout` adds. Vertices all of whose frontier
+  /// was looked at in vain are closed with the reason. None if nothing is left.
+  [[nodiscard]] std::optional<Choice> chooseFrom(graph::VertexId current);
+
+  [[nodiscard]] int samples() const { return samples_; }
+  [[nodiscard]] GraphLayer samplesLayer() const;
+  void fill(PlanStats& stats) const;
+
+ private:
+  struct Draw {
+    graph::VertexId vertex{};
+    int count = 0;
+  };
+  [[nodiscard]] std::vector<Draw> neighbourhoodOf(graph::VertexId current) const;
+  [[nodiscard]] std::vector<Draw> nextRanked(graph::VertexId current) const;
+  [[nodiscard]] std::optional<Candidate> tryAll(const std::vector<Draw>& draws);
+  [[nodiscard]] std::optional<Candidate> tryOnce(const std::vector<Draw>& draws);
+  void close(graph::VertexId vertex, const Refusals& refusals, int out_of_budget);
+
+  GraphGrowth& growth_;
+  const FrontierSurvey& survey_;
+  CandidateJudge& judge_;
+  Rng rng_;
+  std::function<bool(const Candidate&)> fits_budget_;
+  std::function<bool(graph::VertexId)> scout_;
+  std::vector<Candidate> seen_;
+  std::vector<Eigen::Vector3d> vain_;  ///< Places that need not be sampled again in this turn.
+  int round_ = 0;
+  int samples_ = 0;
+  int infeasible_ = 0;
+  Refusals last_refusals_;
+  int last_over_budget_ = 0;
+};
+
+}  // namespace spelunk::planners::informed

@@ -1,0 +1,69 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "spelunk/common/robot_model.h"
+#include "spelunk/map/configuration_space.h"
+#include "spelunk/navigation/navigator.h"
+#include "spelunk/planners/exploration_planner.h"
+#include "spelunk/planners/informed/graph_growth.h"
+#include "spelunk/planners/informed/informed_params.h"
+#include "spelunk/planners/informed/scouting.h"
+#include "spelunk/planners/shared/frontier_view.h"
+#include "spelunk/planners/shared/tried_targets.h"
+#include "spelunk/planners/shared/visits.h"
+
+namespace spelunk::planners::informed {
+
+/// Informed Exploration for robots that fly: Akbari and Bernardini, Informed Autonomous Exploration
+/// of Subterranean Environments, IEEE Robotics and Automation Letters, 2021.
+///
+/// plan(): one turn of Alg. 1, the exploration manager. best_gain and gain_threshold of the stats
+/// are cubic metres of unknown space seen from the sample; global_vertices and global_edges are the
+/// reachability graph's |V| and |E|; vertices counts the samples and the states of the trees that
+/// were grown to them.
+/// planHome(): GoHome, along the reachability graph, else by the motion planner.
+class InformedPlanner final : public ExplorationPlanner {
+ public:
+  /// `resolution_m`: of the maps it will be asked on. Throws Precondition for a robot with legs.
+  InformedPlanner(const InformedParams& params, const RobotModel& robot, double resolution_m);
+
+  /// Layers "search" (trees of the newest search), "samples" (frontier samples, by utility) and
+  /// "reachability".
+  [[nodiscard]] PlannerGraph graph() const override;
+  void restore(const PlannerGraph& graph) override;
+  void reset() override;
+
+ private:
+  /// The newest path proposed by plan().
+  struct Proposal {
+    Path path;
+    PathKind kind = PathKind::kLocal;
+    double gain_m3 = 0.0;
+    Eigen::Vector3d voxel = Eigen::Vector3d::Zero();  ///< The frontier voxel it is for.
+  };
+  struct Search;
+
+  PlanResult doPlan(const PlanRequest& request) override;
+  PlanResult doPlanHome(const PlanRequest& request) override;
+
+  InformedParams params_;
+  RobotModel robot_;
+  FrontierView view_;
+  navigation::Navigator navigator_;
+  map::ConfigurationSpace boxes_;
+  GraphGrowth growth_;
+  Scouting scouting_;
+  TriedTargets tried_;
+  Visits visits_;
+  std::optional<Proposal> proposal_;
+  std::shared_ptr<const map::FrozenMap> checked_map_;
+  std::size_t checked_zones_ = 0;
+  std::size_t reopened_at_voxels_ = 0;
+  GraphLayer search_layer_;
+  GraphLayer samples_layer_;
+};
+
+}  // namespace spelunk::planners::informed

@@ -1,0 +1,14 @@
+#pragma once
+
+#include "spelunk/common/path.h"
+#include "spelunk/graph/path_similarity.h"
+
+namespace spelunk::planners {
+
+/// Poses along a line that look where they go; the first keeps the heading of `start`.
+[[nodiscard]] Path toPath(const graph::Polyline& line, const Pose& start);
+
+/// The positions of a path.
+[[nodiscard]] graph::Polyline toLine(const Path& path);
+
+}  // namespace spelunk::planners

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "spelunk/planners/exploration_planner.h"
+
+namespace spelunk::planners {
+
+/// A target and what it promised when it was chosen.
+struct Visit {
+  Eigen::Vector3d voxel = Eigen::Vector3d::Zero();  ///< The frontier voxel it was chosen for.
+  Eigen::Vector3d place = Eigen::Vector3d::Zero();
+  double gain_m3 = 0.0;
+  double chosen_s = 0.0;  ///< Mission time.
+};
+
+/// Targets that are flown to. A plan often begins before the robot has come to the end of the last
+/// one; what a target was worth can only be told when the robot has been there.
+class Visits {
+ public:
+  void expect(const Visit& visit);
+
+  /// The targets the robot has come by since they were chosen; they are expected no longer.
+  [[nodiscard]] std::vector<Visit> takeMade(const PlanRequest& request);
+
+ private:
+  std::vector<Visit> expected_;
+};
+
+}  // namespace spelunk::planners

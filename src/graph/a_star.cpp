@@ -1,0 +1,78 @@
+#include "spelunk/graph/a_star.h"
+
+#include <algorithm>
+#include <boost/graph/adjacency_list.hpp>
+#include <boost/graph/astar_search.hpp>
+#include <limits>
+
+#include "spelunk/common/contract.h"
+
+namespace spelunk::graph {
+namespace {
+
+using Weight = boost::property<boost::edge_weight_t, double>;
+using BoostGraph =
+    boost::adjacency_list<boost::vecS, boost::vecS, boost::undirectedS, boost::no_property, Weight>;
+
+VertexId idOf(std::size_t i) { return VertexId{static_cast<std::uint32_t>(i)}; }
+
+BoostGraph toBoost(const SpatialGraph& graph) {
+  BoostGraph copy(graph.vertexCount());
+  for (std::size_t i = 0; i < graph.vertexCount(); ++i)
+    for (const Neighbour& n : graph.neighbours(idOf(i)))
+      if (i < indexOf(n.id)) boost::add_edge(i, indexOf(n.id), Weight(n.weight), copy);
+  return copy;
+}
+
+class StraightDistance : public boost::astar_heuristic<BoostGraph, double> {
+ public:
+  StraightDistance(const SpatialGraph& graph, VertexId goal) : graph_(&graph), goal_(goal) {}
+  double operator()(std::size_t vertex) const {
+    return (graph_->position(idOf(vertex)) - graph_->position(goal_)).norm();
+  }
+
+ private:
+  const SpatialGraph* graph_;
+  VertexId goal_;
+};
+
+struct GoalReached {};
+
+class StopAtGoal : public boost::default_astar_visitor {
+ public:
+  explicit StopAtGoal(VertexId goal) : goal_(indexOf(goal)) {}
+  void examine_vertex(std::size_t vertex, const BoostGraph& /*graph*/) const {
+    if (vertex == goal_) throw GoalReached{};  // Boost's own way to end a search early
+  }
+
+ private:
+  std::size_t goal_;
+};
+
+}  // namespace
+
+FoundPath findShortestPath(const SpatialGraph& graph, VertexId from, VertexId to) {
+  require(indexOf(from) < graph.vertexCount() && indexOf(to) < graph.vertexCount(),
+          "findShortestPath: no such vertex");
+  FoundPath found;
+  found.length = std::numeric_limits<double>::infinity();
+  const BoostGraph copy = toBoost(graph);
+  std::vector<std::size_t> before(graph.vertexCount());
+  std::vector<double> distance(graph.vertexCount(), found.length);
+  try {
+    boost::astar_search(copy, indexOf(from), StraightDistance(graph, to),
+                        boost::predecessor_map(before.data())
+                            .distance_map(distance.data())
+                            .distance_inf(found.length)
+                            .visitor(StopAtGoal(to)));
+  } catch (const GoalReached&) {
+    found.length = distance[indexOf(to)];
+    for (std::size_t at = indexOf(to); at != indexOf(from); at = before[at])
+      found.vertices.push_back(idOf(at));
+    found.vertices.push_back(from);
+    std::reverse(found.vertices.begin(), found.vertices.end());
+  }
+  return found;
+}
+
+}  // namespace spelunk::graph

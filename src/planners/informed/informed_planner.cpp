@@ -1,0 +1,354 @@
+#include "spelunk/planners/informed/informed_planner.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "spelunk/common/contract.h"
+#include "spelunk/common/stopwatch.h"
+#include "spelunk/planners/informed/exploration_turn.h"
+#include "spelunk/planners/shared/flight_line.h"
+#include "spelunk/planners/shared/free_start.h"
+
+namespace spelunk::planners::informed {
+namespace {
+
+using graph::Polyline;
+using graph::VertexId;
+
+FrontierViewParams viewParams(const InformedParams& params) {
+  return {params.range_m, {params.closing_height_m, params.growth_m}};
+}
+
+navigation::NavigationParams navigationParams(const InformedParams& params) {
+  navigation::NavigationParams navigation;
+  navigation.safe_distance_m = params.safe_distance_m;
+  navigation.iterations = params.iterations;
+  return navigation;
+}
+
+double longestRange(const RobotModel& robot) {
+  double range = 0.0;
+  for (const SensorModel& sensor : robot.sensor_models) range = std::max(range, sensor.range_max_m);
+  return range;
+}
+
+GraphLayer layerOf(const navigation::NavigationTrees& trees) {
+  GraphLayer layer{"search", {}, trees.edges};
+  for (const Eigen::Vector3d& vertex : trees.vertices)
+    layer.vertices.push_back({vertex, 0.0, false});
+  return layer;
+}
+
+}  // namespace
+
+/// State shared by the steps of one plan.
+struct InformedPlanner::Search {
+  InformedPlanner& planner;
+  const PlanRequest& request;
+  const InformedParams& params;
+  KnownSpace space;
+  FrontierSurvey survey;
+  PlanResult result{};
+  Eigen::Vector3d root = Eigen::Vector3d::Zero();
+  VertexId current{};
+  std::optional<Proposal> previous{};
+
+  Search(InformedPlanner& owner, const PlanRequest& asked)
+      : planner(owner),
+        request(asked),
+        params(owner.params_),
+        space(asked, owner.robot_, owner.navigator_, owner.boxes_),
+        survey(owner.view_, asked, owner.params_) {}
+
+  [[nodiscard]] bool findRoot() {
+    const StartCheck start = checkStart(request, space.free());
+    if (!start.root) return result = refusedStart(start), false;
+    root = *start.root;
+    return true;
+  }
+
+  /// A target that was reached and still promises what it promised keeps its secret for good.
+  void noteOutcome() {
+    previous = std::exchange(planner.proposal_, std::nullopt);
+    if (previous)
+      planner.tried_.note(previous->path.back().position, request.last_outcome,
+                          request.last_reason);
+    for (const Visit& visit : planner.visits_.takeMade(request))
+      if (gainAt(visit.place) >= std::max(kShareLeft * visit.gain_m3, params.gain_min_m3))
+        planner.tried_.giveUp(visit.place, "been there: what it promised cannot be seen from it");
+  }
+
+  [[nodiscard]] double gainAt(const Eigen::Vector3d& place) const {
+    return planner.view_.seenFrom(place, request.pose.yaw, request.bounds).unknown_m3;
+  }
+
+  /// Alg. 1, line 14, for what was flown since the last plan.
+  void growGraph() {
+    if (planner.checked_map_ != request.map || planner.checked_zones_ != request.zones.size()) {
+      const bool has_new_zones = planner.checked_zones_ != request.zones.size();
+      planner.growth_.forgetChecksNear(root, has_new_zones ? std::numeric_limits<double>::infinity()
+                                                           : longestRange(planner.robot_));
+      planner.checked_map_ = request.map;
+      planner.checked_zones_ = request.zones.size();
+    }
+    current = planner.growth_.grow(request, root, survey, space);
+  }
+
+  /// While what the path leads to is still to be seen, it is flown on.
+  [[nodiscard]] bool fliesOn() {
+    if (!previous || previous->kind != PathKind::kLocal ||
+        request.last_outcome != PathOutcome::kReplaced)
+      return false;
+    const PathProjection at = project(previous->path, request.pose.position);
+    Path rest = slice(previous->path, at.arc_m, lengthOf(previous->path));
+    constexpr double kBeside_m = 0.3;
+    constexpr double kNearlyThere_m = 0.5;
+    if (at.distance_m > kBeside_m || lengthOf(rest) < kNearlyThere_m) return false;
+    rest.front() = request.pose;
+    const double gain_m3 = gainAt(rest.back().position);
+    if (gain_m3 < std::max(kShareLeft * previous->gain_m3, params.gain_min_m3)) return false;
+    if (!space.isFree(toLine(rest)) || !fitsBudget(lengthOf(rest), rest.back().position))
+      return false;
+    result.stats.vertices = static_cast<int>(rest.size());
+    propose({std::move(rest), PathKind::kLocal, previous->gain_m3, previous->voxel});
+    result.reason = "on to the frontier sample of before";
+    return true;
+  }
+
+  void propose(Proposal proposal) {
+    result.status = PlanStatus::kOk;
+    result.kind = proposal.kind;
+    result.path = proposal.path;
+    result.stats.best_gain = proposal.gain_m3;
+    planner.proposal_ = std::move(proposal);
+  }
+
+  /// The path of a line that begins at the root; first out of what blocks the start, if anything.
+  [[nodiscard]] Path startingAtPose(const Polyline& line) const {
+    Path path = toPath(line, {root, request.pose.yaw});
+    if ((root - request.pose.position).norm() > 0.0) path.insert(path.begin(), request.pose);
+    path.front() = request.pose;
+    return path;
+  }
+
+  /// The contextual reasoner R_cr: is there time for a way of this length and then home, back along
+  /// it and by the graph, else as the motion planner finds it?
+  [[nodiscard]] bool fitsBudget(double length_m, const Eigen::Vector3d& end) {
+    const auto fits = [&](double metres) {
+      return params.eta_factor * metres / planner.robot_.speed_max_mps <= request.remaining_s;
+    };
+    const ReachabilityGraph& graph = planner.growth_.graph();
+    const double home_m = graph.cheapestPath(current, ReachabilityGraph::home()).length;
+    if (fits(2.0 * length_m + home_m)) return true;
+    if (!fits(length_m + (request.home.position - end).norm())) return false;
+    if (++ways_home > kWaysHomeMax) return false;
+    const auto answer = space.navigate(end, request.home.position, "home from a sample",
+                                       navigation::TreeDetail::kLeaveOut);
+    return answer.status == navigation::NavigationStatus::kOk &&
+           fits(length_m + lengthOf(answer.path));
+  }
+
+  void explore() {
+    const Stopwatch watch;
+    const Region region =
+        regionAt(*request.map, {root, request.pose.yaw}, params.branch_distance_m);
+    CandidateJudge judge{request, planner.view_, params, planner.tried_, space, root,
+                         region,  0.0,           {}};
+    ExplorationTurn turn(
+        planner.growth_, survey, judge, request.rng.fork("sampler"),
+        [this](const Candidate& candidate) {
+          return fitsBudget(graph::lengthOf(candidate.way), candidate.sample.place);
+        },
+        [this](VertexId from) { return scout(from); });
+    std::optional<Choice> choice = turn.chooseFrom(current);
+    if (!choice && reopenClosed()) choice = turn.chooseFrom(current);
+    turn.fill(result.stats);
+    result.stats.graph_ms = watch.milliseconds();
+    planner.samples_layer_ = turn.samplesLayer();
+    if (!choice) return reportNothingLeft(turn);
+    planner.search_layer_ = layerOf(choice->candidate.trees);
+    result.stats.vertices += static_cast<int>(choice->candidate.trees.vertices.size());
+    propose({startingAtPose(choice->candidate.way), choice->kind, choice->candidate.gain_m3,
+             choice->candidate.sample.voxel});
+    planner.visits_.expect({choice->candidate.sample.voxel, choice->candidate.sample.place,
+                            choice->candidate.gain_m3, request.time_s});
+    result.reason = std::string("to a frontier sample in a ") + toText(region) + ", " +
+                    std::to_string(std::lround(choice->candidate.gain_m3)) + " m3 to be seen, " +
+                    std::to_string(std::lround(lengthOf(result.path))) + " m away";
+  }
+
+  [[nodiscard]] bool scout(VertexId from) {
+    const int found = planner.scouting_.scout(from, params.ranked_vertices, planner.growth_,
+                                              planner.view_, request, space);
+    if (found > 0) survey.refresh(planner.growth_.graph());
+    return found > 0;
+  }
+
+  /// What was closed while less was known is looked at once more before all is called explored.
+  [[nodiscard]] bool reopenClosed() {
+    const std::size_t known = request.map->freeVoxels() + request.map->occupiedVoxels();
+    constexpr double kWorthALook = 1.01;
+    const auto before = static_cast<double>(planner.reopened_at_voxels_);
+    if (static_cast<double>(known) < kWorthALook * before) return false;
+    planner.reopened_at_voxels_ = known;
+    bool is_any_open = planner.scouting_.barren() > 0;
+    planner.scouting_.forget();
+    ReachabilityGraph& graph = planner.growth_.graph();
+    for (const VertexId vertex : graph.vertices()) {
+      VertexLabel& label = graph.update(vertex);
+      if (label.closed_because.empty()) continue;
+      label.closed_because.clear();
+      label.is_explored = false;
+      is_any_open = true;
+    }
+    return is_any_open;
+  }
+
+  void reportNothingLeft(const ExplorationTurn& turn) {
+    const ReachabilityGraph& graph = planner.growth_.graph();
+    bool is_over_budget = false;
+    for (const VertexId vertex : graph.vertices()) {
+      const VertexLabel& label = graph.labelOf(vertex);
+      is_over_budget = is_over_budget || (label.is_over_budget && !label.closed_because.empty());
+      if (!label.closed_because.empty())
+        result.remaining.push_back(
+            {graph.graph().position(vertex), label.best_gain_m3, label.closed_because});
+    }
+    if (is_over_budget) {
+      result.status = PlanStatus::kBudgetSaysHome;
+      result.reason = "something is left, but the endurance allows none of it and the way home";
+    } else if (turn.samples() == 0 && !result.remaining.empty() &&
+               graph.graph().vertexCount() == 1) {
+      result.status = PlanStatus::kNoPath;
+      result.reason = "hemmed in: no place beside the frontier around the start is free";
+    } else {
+      result.status = PlanStatus::kNothingToGain;
+      result.reason = result.remaining.empty()
+                          ? "no frontier is left at any vertex of the reachability graph"
+                          : "no frontier is left that can be reached and is worth it; " +
+                                std::to_string(result.remaining.size()) + " vertices keep some";
+    }
+  }
+
+  void goHome() {
+    const double from_proposal_m = proposalGap();
+    Polyline way;
+    if (from_proposal_m < kThere_m) {
+      way = toLine(reversed(planner.proposal_->path));
+      way.front() = root;
+    }
+    const Polyline along = wayHomeFrom(way.empty() ? root : way.back());
+    way.insert(way.end(), along.begin(), along.end());
+    const bool is_home =
+        !along.empty() && (along.back() - request.home.position).norm() < 1e-6 && space.isFree(way);
+    if (is_home) return finishHome(space.shortened(way, params.shortcut_length_max_m));
+    const auto answer =
+        space.navigate(root, request.home.position, "home", navigation::TreeDetail::kLeaveOut);
+    if (answer.status == navigation::NavigationStatus::kOk) return finishHome(toLine(answer.path));
+    result.status = PlanStatus::kNoPath;
+    result.reason = "no free way home is left in the reachability graph, and " + answer.reason;
+  }
+
+  [[nodiscard]] double proposalGap() const {
+    if (!planner.proposal_) return std::numeric_limits<double>::infinity();
+    return (planner.proposal_->path.back().position - root).norm();
+  }
+
+  /// From a place near a vertex that a free straight way leads to, along the graph.
+  [[nodiscard]] Polyline wayHomeFrom(const Eigen::Vector3d& from) {
+    GraphGrowth& growth = planner.growth_;
+    constexpr int kTried = 8;
+    int tried = 0;
+    for (const VertexId vertex : growth.graph().graph().findWithin(from, 2.0 * params.range_m)) {
+      if (++tried > kTried) break;
+      if (!space.free().isFree(from, growth.graph().graph().position(vertex))) continue;
+      Polyline way = growth.freeWay(vertex, ReachabilityGraph::home(), space);
+      if (!way.empty()) return way.insert(way.begin(), from), way;
+    }
+    return {};
+  }
+
+  void finishHome(const Polyline& way) {
+    result.status = PlanStatus::kOk;
+    result.kind = PathKind::kHome;
+    result.path = startingAtPose(way);
+    result.reason = "way home, " + std::to_string(std::lround(lengthOf(result.path))) + " m";
+  }
+
+  void fillStats() {
+    const graph::SpatialGraph& graph = planner.growth_.graph().graph();
+    result.stats.global_vertices = static_cast<int>(graph.vertexCount());
+    result.stats.global_edges = static_cast<int>(graph.edgeCount());
+    result.stats.frontiers = static_cast<int>(planner.view_.frontier().count());
+    result.stats.gain_threshold = params.gain_min_m3;
+  }
+
+  static constexpr double kThere_m = 1e-3;
+  static constexpr double kShareLeft = 0.5;  // of what a target promised that makes it worth having
+  static constexpr int kWaysHomeMax = 3;     // that the motion planner looks for in one plan
+  int ways_home = 0;
+};
+
+InformedPlanner::InformedPlanner(const InformedParams& params, const RobotModel& robot,
+                                 double resolution_m)
+    : params_(params),
+      robot_(robot),
+      view_(robot, resolution_m, viewParams(params)),
+      navigator_(navigationParams(params)),
+      boxes_(robot.box_m),
+      growth_(params),
+      scouting_(params),
+      tried_(params.tried_radius_m) {
+  require(kindOf(robot) == RobotKind::kAerial, "InformedPlanner: for robots that fly");
+}
+
+PlanResult InformedPlanner::doPlan(const PlanRequest& request) {
+  const Stopwatch watch;
+  view_.look(request.map);
+  Search search(*this, request);
+  if (!search.findRoot()) return std::move(search.result);
+  search.noteOutcome();
+  search.growGraph();
+  if (!search.fliesOn()) search.explore();
+  search.fillStats();
+  search.result.stats.total_ms = watch.milliseconds();
+  return std::move(search.result);
+}
+
+PlanResult InformedPlanner::doPlanHome(const PlanRequest& request) {
+  const Stopwatch watch;
+  view_.look(request.map);
+  Search search(*this, request);
+  if (!search.findRoot()) return std::move(search.result);
+  search.goHome();
+  search.fillStats();
+  search.result.stats.total_ms = watch.milliseconds();
+  return std::move(search.result);
+}
+
+PlannerGraph InformedPlanner::graph() const {
+  return {{search_layer_, samples_layer_, growth_.graph().layer()}};
+}
+
+void InformedPlanner::restore(const PlannerGraph& graph) {
+  for (const GraphLayer& layer : graph.layers)
+    if (layer.name == "reachability") growth_.restore(layer);
+}
+
+void InformedPlanner::reset() {
+  view_.forget();
+  growth_ = GraphGrowth(params_);
+  scouting_ = Scouting(params_);
+  tried_ = TriedTargets(params_.tried_radius_m);
+  visits_ = {};
+  proposal_.reset();
+  checked_map_.reset();
+  checked_zones_ = 0;
+  reopened_at_voxels_ = 0;
+  search_layer_ = {};
+  samples_layer_ = {};
+}
+
+}  // namespace spelunk::planners::informed

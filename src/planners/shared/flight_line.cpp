@@ -1,0 +1,25 @@
+#include "spelunk/planners/shared/flight_line.h"
+
+#include <cmath>
+
+namespace spelunk::planners {
+
+Path toPath(const graph::Polyline& line, const Pose& start) {
+  Path path{start};
+  for (std::size_t i = 1; i < line.size(); ++i) {
+    const Eigen::Vector3d step = line[i] - line[i - 1];
+    constexpr double kUpright = 1e-6;  // no heading in a vertical step
+    const double yaw =
+        step.head<2>().norm() > kUpright ? std::atan2(step.y(), step.x()) : path.back().yaw;
+    path.push_back({line[i], yaw});
+  }
+  return path;
+}
+
+graph::Polyline toLine(const Path& path) {
+  graph::Polyline line;
+  for (const Pose& pose : path) line.push_back(pose.position);
+  return line;
+}
+
+}  // namespace spelunk::planners
