@@ -42,6 +42,7 @@ struct Options {
 struct Loaded {
   spelunk::mission::RunConfig config;
   spelunk::sim::SimParams sim;
+  spelunk::evaluation::Delays delays;
   std::unique_ptr<spelunk::planners::ExplorationPlanner> planner;
   std::string share_dir;
 };
@@ -59,6 +60,7 @@ Loaded load(const Options& options) {
   loaded.config = spelunk::mission::loadRunConfig(
       {loaded.share_dir, options.robot, options.planner, options.assignments});
   loaded.sim = spelunk::sim::readSimParams(loaded.config.tree);
+  loaded.config.tree.read("delays", loaded.delays);
   loaded.planner = spelunk::planners::makePlanner(
       options.planner, loaded.config.tree, loaded.config.robot, loaded.config.map.resolution_m);
   loaded.config.tree.requireClean();
@@ -84,6 +86,7 @@ void listParams(const Options& options) {
   printTable(spelunk::describe("terrain", loaded.config.terrain));
   printTable(spelunk::planners::describePlanner(options.planner, loaded.config.tree));
   printTable(spelunk::describe("sim", loaded.sim));
+  printTable(spelunk::describe("delays", loaded.delays));
 }
 
 spelunk::Pose poseFrom(const std::string& text) {
@@ -158,6 +161,7 @@ int fly(const Options& options, bool quiet) {
   setup.start = startOf(options, mesh);
   setup.seed = options.seed;
   setup.time_limit_s = options.time_limit_s;
+  setup.delays = loaded.delays;
   spelunk::evaluation::MissionRun run(setup, mesh, *loaded.planner);
   const auto record =
       quiet ? run.fly() : run.fly([](const spelunk::evaluation::Progress& p) { show(p); });
