@@ -73,9 +73,14 @@ std::optional<Command> Mission::Impl::takeCommand() {
   std::optional<Command> taken = std::move(command);
   command.reset();
   if (!taken) return taken;
-  for (Pose& pose : taken->path) pose.position.z() -= robot.box_lift_m;
+  taken->path = ofBase(std::move(taken->path));
   for (TrajectoryPoint& point : taken->trajectory) point.pose.position.z() -= robot.box_lift_m;
   return taken;
+}
+
+Path Mission::Impl::ofBase(Path path) const {
+  for (Pose& pose : path) pose.position.z() -= robot.box_lift_m;
+  return path;
 }
 
 void Mission::Impl::say(LogLevel level, const std::string& key, const std::string& text) {

@@ -57,6 +57,7 @@ struct Mission::Impl {
 
   // --- Inputs (mission_inputs.cpp).
   void takeOdometry(const RobotState& state);
+  void watchForFall(const RobotState& base);
   map::MapUpdate takeScan(const Scan& scan);
   [[nodiscard]] std::optional<std::string> faultOf(const Scan& scan) const;
   void takeRemaining(double remaining);
@@ -64,9 +65,12 @@ struct Mission::Impl {
   Answer pause();
   Answer goHomeAsAsked();
   Answer emergencyStop();
+  void stopAtOnce(const std::string& why);
   Answer setBounds(const AxisAlignedBox& box);
   Answer setZones(std::vector<NoGoZone> list);
+  [[nodiscard]] std::vector<NoGoZone> markedZones() const;
   [[nodiscard]] std::string startProblem();
+  [[nodiscard]] MissionRecord record(const planners::PlannerGraph& graph) const;
   void takeUp(const MissionRecord& record);
 
   void takeOff();
@@ -93,6 +97,8 @@ struct Mission::Impl {
   void say(LogLevel level, const std::string& key, const std::string& text);
   [[nodiscard]] bool isAtRest() const;
   std::optional<Command> takeCommand();
+  /// A path of the robot's box as one of its base.
+  [[nodiscard]] Path ofBase(Path path) const;
 
   // --- The ground under a robot with legs (mission_ground.cpp).
   void noteGround(const Scan& scan);
@@ -175,6 +181,7 @@ struct Mission::Impl {
   double next_ground_check_s = 0.0;
   double next_retime_s = 0.0;
   bool backs_off = false;
+  std::optional<double> tilted_since_s;  ///< A robot with legs lies on its side since then.
 
   // --- Plans.
   std::optional<PlanJob> pending;
