@@ -9,6 +9,7 @@ namespace spelunk::mission {
 namespace {
 
 constexpr double kInputSilence_s = 1.0;
+constexpr double kScanAgeMax_s = 2.0;
 constexpr double kRestSpeed_mps = 0.2;
 constexpr double kSettleMax_s = 4.0;
 constexpr double kArrived_m = 0.4;
@@ -108,6 +109,7 @@ void Mission::Impl::hold(const std::string& why, planners::PathOutcome outcome) 
   route.reset();
   pending.reset();
   running.reset();
+  if (goal == Goal::kHome) wants_way_home = true;  // the trail leads there, but maybe not shortest
   hold_since_s = now;
   next_refresh_s = now;
   enter(MissionState::kHold, why);
@@ -121,6 +123,9 @@ void Mission::Impl::checkInputs() {
     problem = "no odometry for more than 1 s: check the state estimation";
   } else if (last_scan_s && now - *last_scan_s > kInputSilence_s) {
     problem = "no scan for more than 1 s: check the sensor";
+  } else if (last_scan_s && scanAge() > kScanAgeMax_s) {
+    problem = withNumber("scans come in %.1f s late: the computer or the network is overloaded",
+                         scanAge());
   }
   inputs_ok = problem.empty();
   if (inputs_ok) return;

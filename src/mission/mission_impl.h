@@ -103,8 +103,10 @@ struct Mission::Impl {
   // --- The ground under a robot with legs (mission_ground.cpp).
   void noteGround(const Scan& scan);
   void checkGround();
-  [[nodiscard]] terrain::PathGroundCheck groundAhead(double length_m);
-  [[nodiscard]] bool wasWalkedOn(const Eigen::Vector3d& place) const;
+  [[nodiscard]] Pose standing() const;
+  [[nodiscard]] double scanAge() const;
+  [[nodiscard]] bool looksAgain(const Eigen::Vector3d& unseen);
+  [[nodiscard]] bool wasWalkedOn(const terrain::PathGroundCheck& bad) const;
   [[nodiscard]] bool isFootOfWall(const terrain::PathGroundCheck& bad);
   void avoid(const terrain::PathGroundCheck& bad);
   void stepBackOff();
@@ -166,7 +168,8 @@ struct Mission::Impl {
   double now = 0.0;
   std::optional<double> started_s;
   std::optional<double> last_odometry_s;
-  std::optional<double> last_scan_s;
+  std::optional<double> last_scan_s;  ///< Came in.
+  double newest_scan_s = 0.0;         ///< Was taken.
   std::optional<double> reported_remaining_s;
   std::optional<std::string> input_fault;
   bool inputs_ok = false;
@@ -179,6 +182,7 @@ struct Mission::Impl {
   std::shared_ptr<const map::FrozenMap> frozen;
   Eigen::Isometry3d T_world_base = Eigen::Isometry3d::Identity();  ///< Newest, of the base itself.
   double next_ground_check_s = 0.0;
+  std::optional<Eigen::Vector3d> unseen_place;  ///< The robot has stood before it to look.
   double next_retime_s = 0.0;
   bool backs_off = false;
   std::optional<double> tilted_since_s;  ///< A robot with legs lies on its side since then.

@@ -76,6 +76,7 @@ map::MapUpdate Mission::Impl::takeScan(const Scan& scan) {
   noteGround(scan);
   status.last_map_update_ms = watch.milliseconds();
   last_scan_s = std::max(now, scan.stamp_s);
+  newest_scan_s = std::max(newest_scan_s, scan.stamp_s);
   ++scans;
   if (update.newly_occupied.empty()) return update;
   if (home_graph) home_graph->noteOccupied(update.newly_occupied);

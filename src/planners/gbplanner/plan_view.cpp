@@ -64,9 +64,7 @@ PlanView::PlanView(const PlanRequest& request, const RobotModel& robot,
 template <class Map>
 std::optional<GroundUnder> PlanView::groundIn(const Map& map) const {
   if (kindOf(robot_) != RobotKind::kLegged) return std::nullopt;
-  return GroundUnder{ground_rules_, [&map](const Eigen::Vector3d& point, double distance_m) {
-                       return terrain::groundBelow(map, point, distance_m);
-                     }};
+  return GroundUnder{ground_rules_, terrain::lookupIn(map)};
 }
 
 void PlanView::prepareSearch(const map::FrozenMap& credible) {
