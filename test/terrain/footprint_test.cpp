@@ -107,7 +107,7 @@ TEST(Footprint, TheYawDecidesWhereARobotFits) {
 }
 
 TEST(Footprint, WhereARobotStandsBearsItButNotWhereItSteps) {
-  const sim::MeshScene scene(groundWithHole(1.0, 0.6, 1.0));  // x from 0.7 to 1.3
+  const sim::MeshScene scene(groundWithHole(0.7, 0.6, 1.0));
   TerrainMap terrain{TerrainParams{}};
   terrain.assumeGroundUnder(baseAt(0, 0));
   walk(terrain, scene, -0.5, 0.0, Sight::kLidarAndCamera);

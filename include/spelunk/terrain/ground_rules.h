@@ -40,7 +40,8 @@ template <class Map>
 }
 
 /// `point` at the robot's height above the ground below it; where that is unknown, at the height of
-/// `from`. None if there is none.
+/// `from`, or lower where free space was seen below that: a slope down whose ground is hidden. None
+/// if there is none.
 [[nodiscard]] std::optional<Eigen::Vector3d> placedOnGround(const Eigen::Vector3d& point,
                                                             const Eigen::Vector3d& from,
                                                             const GroundRules& rules,

@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "spelunk/common/contract.h"
+#include "spelunk/planners/gbplanner/exploration_gain.h"
 
 namespace spelunk::planners::gbplanner {
 namespace {
@@ -77,6 +78,7 @@ void PlanView::prepareSearch(const map::FrozenMap& credible) {
 
 double PlanView::gainAt(const Eigen::Vector3d& position, double yaw) const {
   require(credible_.has_value(), "PlanView: prepareSearch was not called");
+  if (wasVisited(request_.trail, position, params_.visited_radius_m)) return 0.0;
   return evaluator_.evaluate(*credible_, position, yaw, request_.bounds).unknown_m3;
 }
 

@@ -35,7 +35,8 @@ class PlanView {
   void prepareSearch(const map::FrozenMap& credible);
   /// The local box with the safety margin around the robot: where it would rather be.
   [[nodiscard]] const FreeSpace& roomySpace() const { return roomy_space_; }
-  /// VolumetricGain at a position of the local box, over credible unknown voxels only; m3.
+  /// VolumetricGain at a position of the local box, over credible unknown voxels only; none where
+  /// the robot has been; m3.
   [[nodiscard]] double gainAt(const Eigen::Vector3d& position, double yaw) const;
 
  private:
