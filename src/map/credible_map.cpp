@@ -12,7 +12,6 @@
 namespace spelunk::map {
 namespace {
 
-constexpr int kChunkSide = 32;
 constexpr int kHalo = kBlockSide;  ///< Voxels around a chunk that are looked at in x and y.
 constexpr int kRows = kChunkSide + 2 * kHalo;
 constexpr int kGapMax = 30;

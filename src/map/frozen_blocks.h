@@ -9,6 +9,8 @@
 
 namespace spelunk::map {
 
+inline constexpr int kChunkSide = 32;
+
 /// Status bits of one block; a row of eight voxels along x is one byte of a word.
 struct StatusBlock {
   Mask known{};

@@ -92,6 +92,33 @@ class BlockCopier {
   Extent known_{VoxelIndex::Constant(1 << 30), VoxelIndex::Constant(-(1 << 30))};
 };
 
+/// The chunks that hold a voxel of first..last, in no certain order.
+std::vector<const StatusChunk*> chunksIn(const FrozenMap::Blocks& blocks, const VoxelIndex& first,
+                                         const VoxelIndex& last) {
+  const auto corner = [](const VoxelIndex& index) {
+    return VoxelIndex(index.unaryExpr([](int i) { return i & ~(kChunkSide - 1); }));
+  };
+  const VoxelIndex low = corner(first.cwiseMax(-kKeyOffset));
+  const VoxelIndex high = corner(last.cwiseMin(kKeyOffset - 1));
+  std::vector<const StatusChunk*> found;
+  const Eigen::Vector3d counts = (high - low).cast<double>() / kChunkSide;
+  if ((counts.array() + 1.0).prod() > static_cast<double>(blocks.chunks.size())) {
+    for (const auto& chunk : blocks.chunks) {
+      const VoxelIndex at = unpackIndex(chunk->key);
+      if ((at.array() >= low.array()).all() && (at.array() <= high.array()).all())
+        found.push_back(chunk.get());
+    }
+    return found;
+  }
+  for (int z = low.z(); z <= high.z(); z += kChunkSide)
+    for (int y = low.y(); y <= high.y(); y += kChunkSide)
+      for (int x = low.x(); x <= high.x(); x += kChunkSide) {
+        const std::uint32_t number = blocks.table->find(packIndex({x, y, z}));
+        if (number != KeyTable::kAbsent) found.push_back(blocks.chunks[number].get());
+      }
+  return found;
+}
+
 void copyChunk(const StatusChunk& chunk, const VoxelIndex& first, const VoxelIndex& last,
                BlockCopier& copier) {
   const VoxelIndex corner = unpackIndex(chunk.key);
@@ -118,7 +145,8 @@ LocalWindow::LocalWindow(const FrozenMap& map, const AxisAlignedBox& region)
   cells_.resize(static_cast<std::size_t>(size.prod()));
   packed_.resize(cells_.size() / 4 + 1 + kReadableBeyond);
   BlockCopier copier(origin_, size_, cells_.data(), packed_.data());
-  for (const auto& chunk : map.blocks().chunks) copyChunk(*chunk, origin_, last, copier);
+  for (const StatusChunk* chunk : chunksIn(map.blocks(), origin_, last))
+    copyChunk(*chunk, origin_, last, copier);
   known_first_ = copier.known().min;
   known_last_ = copier.known().max;
 }

@@ -2,50 +2,14 @@
 
 #include <limits>
 
+#include "ray_grid.h"
+#include "spelunk/common/contract.h"
+#include "wide_walks.h"
+
 namespace spelunk::map {
 namespace {
 
 constexpr std::size_t kWordsMax = std::size_t{1} << 23;  // 64 MB of bits
-constexpr int kMargin = 2;  // voxels that rounding may lead a ray beyond its ends
-
-/// A dense grid of bits whose rows along x hold whole words and whose corner is one of a block.
-struct RayGrid {
-  VoxelIndex first;
-  VoxelIndex blocks;  ///< Along each axis.
-  std::size_t row_words;
-  std::size_t layer_words;
-
-  explicit RayGrid(const std::vector<RayWalk>& walks) {
-    VoxelIndex low = walks.front().start;
-    VoxelIndex high = low;
-    for (const RayWalk& walk : walks) {
-      low = low.cwiseMin(walk.end);
-      high = high.cwiseMax(walk.end);
-    }
-    low.array() -= kMargin;
-    high.array() += kMargin;
-    for (int i = 0; i < 3; ++i) {
-      first(i) = low(i) & ~(kBlockSide - 1);
-      blocks(i) = (high(i) - first(i)) / kBlockSide + 1;
-    }
-    blocks.x() = (blocks.x() + 7) / 8 * 8;
-    row_words = static_cast<std::size_t>(blocks.x()) / 8;
-    layer_words = row_words * 8 * static_cast<std::size_t>(blocks.y());
-  }
-
-  [[nodiscard]] std::size_t words() const {
-    return layer_words * 8 * static_cast<std::size_t>(blocks.z());
-  }
-  [[nodiscard]] std::int64_t stride(int axis) const {
-    const std::size_t strides[3] = {1, 64 * row_words, 64 * layer_words};
-    return static_cast<std::int64_t>(strides[axis]);
-  }
-  [[nodiscard]] std::int64_t offsetOf(const VoxelIndex& index) const {
-    std::int64_t offset = 0;
-    for (int i = 0; i < 3; ++i) offset += (index(i) - first(i)) * stride(i);
-    return offset;
-  }
-};
 
 /// All state of the loop is local: what the marks are written to might else be part of it.
 void walkThrough(const RayWalk& walk, const RayGrid& grid, std::uint64_t* words) {
@@ -74,6 +38,12 @@ void walkThrough(const RayWalk& walk, const RayGrid& grid, std::uint64_t* words)
     else
       is_going = next_y < next_z ? leave(next_y, 1) : leave(next_z, 2);
   }
+}
+
+void walkThroughAll(const std::vector<RayWalk>& walks, const RayGrid& grid, WalkLanes lanes,
+                    std::uint64_t* words) {
+  if (lanes == WalkLanes::kEight) return walkThroughByEights(walks, grid, words);
+  for (const RayWalk& walk : walks) walkThrough(walk, grid, words);
 }
 
 /// The blocks of eight by eight rows, at a word of x each.
@@ -116,6 +86,13 @@ void walkOne(const RayWalk& walk, ScanMarks& marks) {
 
 }  // namespace
 
+RayMarker::RayMarker(WalkLanes lanes) : lanes_(lanes) {
+  require(lanes == WalkLanes::kOne || hasEightLanes(),
+          "RayMarker: this processor has no registers of eight lanes");
+}
+
+WalkLanes RayMarker::most() { return hasEightLanes() ? WalkLanes::kEight : WalkLanes::kOne; }
+
 void RayMarker::markFreeOneByOne(const std::vector<RayWalk>& walks, ScanMarks& marks) {
   for (const RayWalk& walk : walks) walkOne(walk, marks);
 }
@@ -125,7 +102,7 @@ void RayMarker::markFree(const std::vector<RayWalk>& walks, ScanMarks& marks) {
   const RayGrid grid(walks);
   if (grid.words() > kWordsMax) return markFreeOneByOne(walks, marks);
   words_.assign(grid.words(), 0);
-  for (const RayWalk& walk : walks) walkThrough(walk, grid, words_.data());
+  walkThroughAll(walks, grid, lanes_, words_.data());
   for (int z = 0; z < grid.blocks.z(); ++z)
     for (int y = 0; y < grid.blocks.y(); ++y)
       for (int x = 0; x < grid.blocks.x() / 8; ++x)

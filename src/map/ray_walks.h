@@ -18,10 +18,19 @@ struct RayWalk {
   double length;     ///< A border beyond it is not crossed: rounding can lead past the end's voxel.
 };
 
+/// How many rays are walked at once.
+enum class WalkLanes { kOne, kEight };
+
 /// Marks the voxels that walks pass through as free. Rays are walked through a dense grid of bits
 /// around all of them, where a step is an addition; whole blocks are collected from it afterwards.
 class RayMarker {
  public:
+  /// Throws Precondition if the processor has no such registers. The marks are the same.
+  explicit RayMarker(WalkLanes lanes = most());
+
+  /// What this processor does fastest.
+  [[nodiscard]] static WalkLanes most();
+
   void markFree(const std::vector<RayWalk>& walks, ScanMarks& marks);
 
   /// The same, one ray and one voxel after the other, straight into the blocks: for rays that reach
@@ -29,6 +38,7 @@ class RayMarker {
   static void markFreeOneByOne(const std::vector<RayWalk>& walks, ScanMarks& marks);
 
  private:
+  WalkLanes lanes_;
   std::vector<std::uint64_t> words_;  ///< Kept, so that no scan allocates.
 };
 

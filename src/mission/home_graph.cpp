@@ -4,8 +4,6 @@
 #include <limits>
 #include <utility>
 
-#include "spelunk/navigation/swept_path_check.h"
-
 namespace spelunk::mission {
 namespace {
 
@@ -26,6 +24,8 @@ HomeGraph::HomeGraph(const Pose& home, const Eigen::Vector3d& box, double resolu
                      Footing footing)
     : box_(box),
       footing_(std::move(footing)),
+      space_(box),
+      tight_space_(tightBox(box)),
       swept_(box, resolution_m),
       swept_tight_(tightBox(box), resolution_m) {
   trail_.push_back(home);
@@ -110,37 +110,42 @@ void HomeGraph::noteOccupied(const std::vector<map::VoxelIndex>& voxels) {
   }
 }
 
-bool HomeGraph::isFree(graph::VertexId a, graph::VertexId b, const Eigen::Vector3d& box,
-                       const map::FrozenMap& map) const {
-  const Path line{{graph_.position(a), 0.0}, {graph_.position(b), 0.0}};
-  return navigation::checkPath(map, line, box, {}, {}).isFree();
+void HomeGraph::use(const std::shared_ptr<const map::FrozenMap>& map) {
+  space_.use(map);
+  tight_space_.use(map);
 }
 
-void HomeGraph::recheck(Edge& edge, const map::FrozenMap& map) {
+bool HomeGraph::isFree(graph::VertexId a, graph::VertexId b, map::ConfigurationSpace& space) const {
+  return space.isSweepFree(graph_.position(a), graph_.position(b));
+}
+
+void HomeGraph::recheck(Edge& edge) {
   if (edge.is_forbidden) return;
-  if (isFree(edge.a, edge.b, box_, map)) {
+  if (isFree(edge.a, edge.b, space_)) {
     setState(edge, EdgeState::kOpen);
-  } else if (edge.is_flown && isFree(edge.a, edge.b, tightBox(box_), map)) {
+  } else if (edge.is_flown && isFree(edge.a, edge.b, tight_space_)) {
     setState(edge, EdgeState::kTight);
   }
 }
 
-void HomeGraph::connect(const map::FrozenMap& map) {
+void HomeGraph::connect(const std::shared_ptr<const map::FrozenMap>& map) {
+  use(map);
   const std::size_t count = graph_.vertexCount();
   for (; next_to_connect_ < count; ++next_to_connect_)
-    tryShortcuts(static_cast<graph::VertexId>(next_to_connect_), map);
+    tryShortcuts(static_cast<graph::VertexId>(next_to_connect_), *map);
   const std::size_t some = std::min(cut_.size(), kRechecksPerCall);
   const std::vector<std::uint32_t> first(cut_.begin(), cut_.begin() + static_cast<long>(some));
   cut_.erase(cut_.begin(), cut_.begin() + static_cast<long>(some));
   for (const std::uint32_t id : first) {
-    recheck(edges_[id], map);
+    recheck(edges_[id]);
     if (edges_[id].state != EdgeState::kOpen) cut_.push_back(id);
   }
 }
 
-void HomeGraph::recheckAll(const map::FrozenMap& map) {
+void HomeGraph::recheckAll(const std::shared_ptr<const map::FrozenMap>& map) {
+  use(map);
   for (Edge& edge : edges_)
-    if (edge.state != EdgeState::kOpen) recheck(edge, map);
+    if (edge.state != EdgeState::kOpen) recheck(edge);
 }
 
 void HomeGraph::tryShortcuts(graph::VertexId id, const map::FrozenMap& map) {
@@ -152,7 +157,7 @@ void HomeGraph::tryShortcuts(graph::VertexId id, const map::FrozenMap& map) {
         static_cast<double>(graph::indexOf(id) - graph::indexOf(other)) * kTrailSpacing_m;
     if (between < kShortcutWorth * std::max(gap, kTrailSpacing_m)) continue;
     if (++tries > kShortcutTries) return;
-    if (!isFree(id, other, box_, map)) continue;
+    if (!isFree(id, other, space_)) continue;
     if (footing_ && !footing_(map, graph_.position(id), graph_.position(other))) continue;
     addEdge(id, other, Origin::kChecked);
   }

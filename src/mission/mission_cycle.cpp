@@ -191,7 +191,7 @@ void Mission::Impl::checkAhead() {
   if (gap > brakingDistance(robot, speed) + kStopMargin_m) return;
   const Path rest = active->line(arc, active->length());
   const auto check =
-      navigation::checkPath(*map.freeze(), rest, active->box(),
+      navigation::checkPath(spaceOf(active->box()), rest,
                             active->kind() == planners::PathKind::kHome ? given_zones : no_go, {});
   if (check.isFree()) return active->clearBlock();
   active->setBlockedAt(arc + check.arc_m);

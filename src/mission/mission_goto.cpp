@@ -17,7 +17,7 @@ std::string Mission::Impl::goToProblem(const Path& path) {
   if (path.size() < 2) return "the path is empty";
   if (distance(path.front(), input.latest()->pose) > kStartGap_m)
     return "the path does not begin where the robot is";
-  const auto check = navigation::checkPath(*map.freeze(), path, robot.box_m, no_go, limits);
+  const auto check = navigation::checkPath(spaceOf(robot.box_m), path, no_go, limits);
   if (!check.isFree())
     return std::string("the path is not clear: ") + navigation::toText(check.fault);
   return "";

@@ -38,7 +38,7 @@ void Mission::Impl::noteRoute(const Path& rest, const planners::PlanResult& home
 std::optional<WayHome> Mission::Impl::wayByTrail() {
   auto path = home_graph->wayFrom(input.latest()->pose);
   if (!path) {
-    home_graph->recheckAll(*map.freeze());
+    home_graph->recheckAll(map.freeze());
     path = home_graph->wayFrom(input.latest()->pose);
   }
   if (!path) return std::nullopt;
@@ -94,12 +94,21 @@ bool Mission::Impl::isAtHome() const {
   return distance(input.latest()->pose, home_graph->home()) <= params.home_radius_m;
 }
 
+map::ConfigurationSpace& Mission::Impl::spaceOf(const Eigen::Vector3d& box) {
+  auto found = std::find_if(spaces.begin(), spaces.end(), [&](const map::ConfigurationSpace& each) {
+    return each.boxSize() == box;
+  });
+  if (found == spaces.end()) found = spaces.emplace(spaces.end(), box);
+  found->use(map.freeze());
+  return *found;
+}
+
 bool Mission::Impl::isWayClear(const Path& path, const Eigen::Vector3d& box) {
-  return navigation::checkPath(*map.freeze(), path, box, no_go, {}).isFree();
+  return navigation::checkPath(spaceOf(box), path, no_go, {}).isFree();
 }
 
 bool Mission::Impl::isTrailClear(const Path& path, const Eigen::Vector3d& box) {
-  return navigation::checkPath(*map.freeze(), path, box, given_zones, {}).isFree();
+  return navigation::checkPath(spaceOf(box), path, given_zones, {}).isFree();
 }
 
 void Mission::Impl::goHome(const std::string& why) {
@@ -141,8 +150,7 @@ void Mission::Impl::launchHome() {
   if (!active && isAtHome()) return;
   auto by_trail = wayByTrail();
   if (by_trail && !terrain) {
-    navigation::SegmentChecker checker(map.freeze(), robot.box_m);
-    by_trail->path = navigation::shortened(by_trail->path, checker, kShortenReach_m);
+    by_trail->path = navigation::shortened(by_trail->path, spaceOf(robot.box_m), kShortenReach_m);
     by_trail->travel_s = navigation::travelTime(by_trail->path, limitsOf(robot));
   }
   const auto by_route = wayByRoute();

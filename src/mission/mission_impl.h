@@ -1,5 +1,6 @@
 #pragma once
 
+#include <deque>
 #include <memory>
 #include <optional>
 #include <string>
@@ -143,6 +144,8 @@ struct Mission::Impl {
   void stepHome();
   void launchHome();
   [[nodiscard]] Path fromMotion(const WayHome& way) const;
+  /// The configuration space of a box in the map as it is now.
+  [[nodiscard]] map::ConfigurationSpace& spaceOf(const Eigen::Vector3d& box);
   [[nodiscard]] bool isWayClear(const Path& path, const Eigen::Vector3d& box);
   /// The same for the robot's own trail, where marked ground has been walked on.
   [[nodiscard]] bool isTrailClear(const Path& path, const Eigen::Vector3d& box);
@@ -180,6 +183,7 @@ struct Mission::Impl {
   std::vector<NoGoZone> no_go;        ///< All of them.
   std::vector<NoGoZone> given_zones;  ///< Those that people set; the rest was marked on the way.
   std::shared_ptr<const map::FrozenMap> frozen;
+  std::deque<map::ConfigurationSpace> spaces;  ///< One a box that was asked for.
   Eigen::Isometry3d T_world_base = Eigen::Isometry3d::Identity();  ///< Newest, of the base itself.
   double next_ground_check_s = 0.0;
   std::optional<Eigen::Vector3d> unseen_place;  ///< The robot has stood before it to look.

@@ -53,7 +53,7 @@ void Mission::Impl::askForPlan() {
 
 void Mission::Impl::makeJob() {
   frozen = map.freeze();
-  home_graph->connect(*frozen);
+  home_graph->connect(frozen);
   const double voxel = frozen->resolution();
   status.known_volume_m3 = static_cast<double>(frozen->freeVoxels()) * voxel * voxel * voxel;
   RunningJob job;
@@ -124,14 +124,13 @@ Path Mission::Impl::joined(const RunningJob& job, const Path& path) const {
 }
 
 navigation::PathCheck Mission::Impl::checkProposal(const Path& path) {
-  const auto view = map.freeze();
-  const auto check = navigation::checkPath(*view, path, robot.box_m, no_go, limits);
+  const auto check = navigation::checkPath(spaceOf(robot.box_m), path, no_go, limits);
   constexpr double kStepOut_m = 0.7;
   if (check.isFree() || path.size() < 2 || distance(path[0], path[1]) > kStepOut_m) return check;
   const Path step_out(path.begin(), path.begin() + 2);
-  if (!navigation::checkPath(*view, step_out, kBodyShare * robot.box_m, no_go, {}).isFree())
+  if (!navigation::checkPath(spaceOf(kBodyShare * robot.box_m), step_out, no_go, {}).isFree())
     return check;
-  return navigation::checkPath(*view, Path(path.begin() + 1, path.end()), robot.box_m, no_go,
+  return navigation::checkPath(spaceOf(robot.box_m), Path(path.begin() + 1, path.end()), no_go,
                                limits);
 }
 
@@ -220,13 +219,13 @@ void Mission::Impl::onFailedPlan(const std::string& why) {
 Trajectory Mission::Impl::smoothest(const Path& path, const navigation::MotionStart& start,
                                     const Eigen::Vector3d& box) {
   const MotionLimits limits_of_robot = limitsOf(robot);
-  const auto view = map.freeze();
+  map::ConfigurationSpace& space = spaceOf(box);
   for (const double tolerance : kCornerTolerances_m) {
     Trajectory trajectory = navigation::timed(path, limits_of_robot, start, tolerance);
     Path line;
     for (const TrajectoryPoint& point : trajectory) line.push_back(point.pose);
     line = pathOf(navigation::straightened(line, kLineTolerance_m));
-    if (navigation::checkPath(*view, line, box, no_go, {}).isFree()) return trajectory;
+    if (navigation::checkPath(space, line, no_go, {}).isFree()) return trajectory;
   }
   return navigation::timed(path, limits_of_robot, start, kLeastTolerance_m);
 }

@@ -18,13 +18,13 @@ std::size_t farthestWithin(const Path& path, std::size_t from, double reach_m) {
 
 }  // namespace
 
-Path shortened(const Path& path, SegmentChecker& checker, double reach_m) {
+Path shortened(const Path& path, map::ConfigurationSpace& space, double reach_m) {
   require(!path.empty(), "shortened: empty path");
   Path kept{path.front()};
   std::size_t at = 0;
   while (at + 1 < path.size()) {
     std::size_t next = farthestWithin(path, at, reach_m);
-    while (next > at + 1 && !checker.isFree(path[at].position, path[next].position)) --next;
+    while (next > at + 1 && !space.isSweepFree(path[at].position, path[next].position)) --next;
     kept.push_back(path[next]);
     at = next;
   }

@@ -15,7 +15,7 @@
 #include <cmath>
 
 #include "spelunk/common/contract.h"
-#include "spelunk/navigation/swept_path_check.h"
+#include "spelunk/map/configuration_space.h"
 
 namespace spelunk::navigation {
 namespace {
@@ -35,19 +35,19 @@ Eigen::Vector3d positionOf(const ob::State* state) {
 class FreeSpace {
  public:
   explicit FreeSpace(const PointToPointRequest& request)
-      : request_(request), checker_(request.map, request.box) {}
+      : request_(request), space_(request.box, request.map) {}
 
   [[nodiscard]] bool isFree(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
     if (!request_.bounds.contains(a) || !request_.bounds.contains(b)) return false;
     const bool meets_zone =
         std::any_of(request_.zones.begin(), request_.zones.end(),
                     [&](const NoGoZone& zone) { return sweptBoxMeets(zone, a, b, request_.box); });
-    return !meets_zone && checker_.isFree(a, b);
+    return !meets_zone && space_.isSweepFree(a, b);
   }
 
  private:
   const PointToPointRequest& request_;
-  SegmentChecker checker_;
+  map::ConfigurationSpace space_;
 };
 
 /// Draws from our own stream, so that a query repeats.

@@ -2,30 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
-#include <tuple>
 
 #include "spelunk/common/contract.h"
 
 namespace spelunk::navigation {
 namespace {
-
-constexpr double kPieceMax_m = 8.0;  // a diagonal window of this size is still small
-constexpr double kTile_m = 6.4;      // segments up to this length are answered from a tile
-
-AxisAlignedBox around(const Eigen::Vector3d& a, const Eigen::Vector3d& b,
-                      const Eigen::Vector3d& margin) {
-  return {a.cwiseMin(b) - margin, a.cwiseMax(b) + margin};
-}
-
-Eigen::Vector3d windowMargin(const Eigen::Vector3d& box, double resolution_m) {
-  return 0.5 * box + Eigen::Vector3d::Constant(2.0 * resolution_m);
-}
-
-struct SegmentFault {
-  PathFault fault = PathFault::kNone;
-  double along_m = 0.0;
-};
 
 PathFault faultOf(map::Occupancy occupancy) {
   if (occupancy == map::Occupancy::kFree) return PathFault::kNone;
@@ -33,43 +14,18 @@ PathFault faultOf(map::Occupancy occupancy) {
 }
 
 /// How far the box gets on a segment whose whole sweep is not free.
-double freeLength(const map::InflatedWindow& window, const Eigen::Vector3d& a,
-                  const Eigen::Vector3d& b, double step_m) {
+double freeLength(map::ConfigurationSpace& space, const Eigen::Vector3d& a,
+                  const Eigen::Vector3d& b) {
   const double length = (b - a).norm();
-  const int steps = std::max(1, static_cast<int>(std::ceil(length / step_m)));
+  const int steps = std::max(1, static_cast<int>(std::ceil(length / space.resolution())));
   Eigen::Vector3d last = a;
-  if (!window.isFree(a)) return 0.0;
+  if (!space.isFree(a)) return 0.0;
   for (int k = 1; k <= steps; ++k) {
     const Eigen::Vector3d next = a + (b - a) * (static_cast<double>(k) / steps);
-    if (!window.isSweepFree(last, next)) return length * (k - 1) / steps;
+    if (!space.isSweepFree(last, next)) return length * (k - 1) / steps;
     last = next;
   }
   return 0.0;
-}
-
-SegmentFault checkPiece(const map::FrozenMap& map, const Eigen::Vector3d& a,
-                        const Eigen::Vector3d& b, const Eigen::Vector3d& box) {
-  const double resolution = map.resolution();
-  const map::LocalWindow local(map, around(a, b, windowMargin(box, resolution)));
-  const map::InflatedWindow window(local, box);
-  const PathFault fault = faultOf(window.sweep(a, b));
-  if (fault == PathFault::kNone) return {};
-  return {fault, freeLength(window, a, b, resolution)};
-}
-
-SegmentFault checkOccupancy(const map::FrozenMap& map, const Eigen::Vector3d& a,
-                            const Eigen::Vector3d& b, const Eigen::Vector3d& box) {
-  const double length = (b - a).norm();
-  const int pieces = std::max(1, static_cast<int>(std::ceil(length / kPieceMax_m)));
-  for (int k = 0; k < pieces; ++k) {
-    const double from = static_cast<double>(k) / pieces;
-    const double to = static_cast<double>(k + 1) / pieces;
-    SegmentFault found = checkPiece(map, a + from * (b - a), a + to * (b - a), box);
-    if (found.fault == PathFault::kNone) continue;
-    found.along_m += from * length;
-    return found;
-  }
-  return {};
 }
 
 const NoGoZone* findZone(const std::vector<NoGoZone>& zones, const Eigen::Vector3d& a,
@@ -81,13 +37,14 @@ const NoGoZone* findZone(const std::vector<NoGoZone>& zones, const Eigen::Vector
 }
 
 /// The fault of one segment with `arc_m` counted from its begin.
-PathCheck checkSegment(const map::FrozenMap& map, const Eigen::Vector3d& a,
-                       const Eigen::Vector3d& b, const Eigen::Vector3d& box,
-                       const std::vector<NoGoZone>& zones, const AxisAlignedBox& bounds) {
+PathCheck checkSegment(map::ConfigurationSpace& space, const Eigen::Vector3d& a,
+                       const Eigen::Vector3d& b, const std::vector<NoGoZone>& zones,
+                       const AxisAlignedBox& bounds) {
   if (!bounds.contains(a) || !bounds.contains(b)) return {PathFault::kOutOfBounds, 0.0, ""};
-  if (const NoGoZone* zone = findZone(zones, a, b, box)) return {PathFault::kNoGo, 0.0, zone->name};
-  const SegmentFault occupancy = checkOccupancy(map, a, b, box);
-  return {occupancy.fault, occupancy.along_m, ""};
+  if (const NoGoZone* zone = findZone(zones, a, b, space.boxSize()))
+    return {PathFault::kNoGo, 0.0, zone->name};
+  const PathFault fault = faultOf(space.sweep(a, b));
+  return {fault, fault == PathFault::kNone ? 0.0 : freeLength(space, a, b), ""};
 }
 
 }  // namespace
@@ -108,14 +65,14 @@ const char* toText(PathFault fault) {
   return "unknown";
 }
 
-PathCheck checkPath(const map::FrozenMap& map, const Path& path, const Eigen::Vector3d& box,
+PathCheck checkPath(map::ConfigurationSpace& space, const Path& path,
                     const std::vector<NoGoZone>& zones, const AxisAlignedBox& bounds) {
   require(!path.empty(), "checkPath: empty path");
   double arc = 0.0;
   for (std::size_t i = path.size() == 1 ? 0 : 1; i < path.size(); ++i) {
     const Eigen::Vector3d& a = path[i == 0 ? 0 : i - 1].position;
     const Eigen::Vector3d& b = path[i].position;
-    PathCheck found = checkSegment(map, a, b, box, zones, bounds);
+    PathCheck found = checkSegment(space, a, b, zones, bounds);
     if (!found.isFree()) {
       found.arc_m += arc;
       return found;
@@ -124,50 +81,5 @@ PathCheck checkPath(const map::FrozenMap& map, const Path& path, const Eigen::Ve
   }
   return {PathFault::kNone, arc, ""};
 }
-
-struct SegmentChecker::Impl {
-  std::shared_ptr<const map::FrozenMap> map;
-  Eigen::Vector3d box;
-  std::map<std::tuple<int, int, int>, map::InflatedWindow> tiles;
-
-  const map::InflatedWindow& tileAt(const Eigen::Vector3d& point) {
-    const Eigen::Vector3i index = (point / kTile_m).array().floor().cast<int>();
-    const auto key = std::make_tuple(index.x(), index.y(), index.z());
-    const auto found = tiles.find(key);
-    if (found != tiles.end()) return found->second;
-    const Eigen::Vector3d low = kTile_m * index.cast<double>();
-    const Eigen::Vector3d margin =
-        windowMargin(box, map->resolution()) + Eigen::Vector3d::Constant(0.5 * kTile_m);
-    const map::LocalWindow local(*map,
-                                 around(low, low + Eigen::Vector3d::Constant(kTile_m), margin));
-    return tiles.emplace(key, map::InflatedWindow(local, box)).first->second;
-  }
-};
-
-SegmentChecker::SegmentChecker(std::shared_ptr<const map::FrozenMap> map,
-                               const Eigen::Vector3d& box)
-    : impl_(new Impl{std::move(map), box, {}}) {
-  require(impl_->map != nullptr, "SegmentChecker: no map");
-}
-SegmentChecker::~SegmentChecker() = default;
-SegmentChecker::SegmentChecker(SegmentChecker&&) noexcept = default;
-
-map::Occupancy SegmentChecker::sweep(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
-  const double length = (b - a).norm();
-  if (length <= kTile_m) return impl_->tileAt(0.5 * (a + b)).sweep(a, b);
-  const SegmentFault found = checkOccupancy(*impl_->map, a, b, impl_->box);
-  if (found.fault == PathFault::kNone) return map::Occupancy::kFree;
-  return found.fault == PathFault::kOccupied ? map::Occupancy::kOccupied : map::Occupancy::kUnknown;
-}
-
-bool SegmentChecker::isFree(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
-  return sweep(a, b) == map::Occupancy::kFree;
-}
-
-map::Occupancy SegmentChecker::boxAt(const Eigen::Vector3d& centre) {
-  return impl_->tileAt(centre).boxAt(centre);
-}
-
-std::size_t SegmentChecker::windows() const { return impl_->tiles.size(); }
 
 }  // namespace spelunk::navigation

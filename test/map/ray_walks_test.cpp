@@ -36,6 +36,7 @@ std::vector<RayWalk> walksFrom(const Eigen::Vector3f& origin, int rays, float re
 TEST(RayMarker, MarksWhatWalkingOneByOneMarks) {
   Rng rng(4);
   RayMarker marker;
+  RayMarker scalar(WalkLanes::kOne);
   for (int round = 0; round < 20; ++round) {
     const auto shift = static_cast<float>(round);
     const Eigen::Vector3f origin(shift * 3.7F - 30.0F, 1.3F * shift, -0.4F * shift);
@@ -44,7 +45,10 @@ TEST(RayMarker, MarksWhatWalkingOneByOneMarks) {
     ScanMarks plain;
     marker.markFree(walks, fast);
     RayMarker::markFreeOneByOne(walks, plain);
+    ScanMarks by_scalars;
+    scalar.markFree(walks, by_scalars);
     ASSERT_EQ(freeOf(fast), freeOf(plain)) << "round " << round;
+    ASSERT_EQ(freeOf(by_scalars), freeOf(plain)) << "round " << round;
     ASSERT_GT(freeOf(plain).size(), 5U);
   }
 }

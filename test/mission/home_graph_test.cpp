@@ -44,7 +44,7 @@ TEST(HomeGraph, TrailAloneLeadsBackTheWayFlown) {
 TEST(HomeGraph, ShortcutAcrossFreeSpaceSavesTheDetour) {
   HomeGraph graph = outAndBack();
   auto map = mapOf(hall());
-  graph.connect(*map.freeze());
+  graph.connect(map.freeze());
   const auto way = graph.wayFrom({{5.0, 4.5, 2.5}, 0.0});
   ASSERT_TRUE(way);
   EXPECT_LT(lengthOf(*way), 5.0);
@@ -55,7 +55,7 @@ TEST(HomeGraph, WallBetweenLegsForbidsTheShortcut) {
   world.block({{1.0, 3.0, 1.0}, {23.0, 4.0, 4.0}});
   auto map = mapOf(world);
   HomeGraph graph = outAndBack();
-  graph.connect(*map.freeze());
+  graph.connect(map.freeze());
   const auto way = graph.wayFrom({{5.0, 4.5, 2.5}, 0.0});
   ASSERT_TRUE(way);
   EXPECT_GT(lengthOf(*way), 35.0);
@@ -64,14 +64,14 @@ TEST(HomeGraph, WallBetweenLegsForbidsTheShortcut) {
 TEST(HomeGraph, NewObstacleCutsShortcutsAndTrail) {
   auto map = mapOf(hall());
   HomeGraph graph = outAndBack();
-  graph.connect(*map.freeze());
+  graph.connect(map.freeze());
   // A wall across the whole hall between home and the robot.
   std::vector<map::VoxelIndex> wall;
   for (int y = 4; y < 28; ++y)
     for (int z = 4; z < 16; ++z) wall.emplace_back(16, y, z);
   graph.noteOccupied(wall);
   EXPECT_FALSE(graph.wayFrom({{10.0, 4.5, 2.5}, 0.0}));
-  graph.recheckAll(*map.freeze());  // the map itself has no wall: the cut was momentary
+  graph.recheckAll(map.freeze());  // the map itself has no wall: the cut was momentary
   EXPECT_TRUE(graph.wayFrom({{10.0, 4.5, 2.5}, 0.0}));
 }
 
@@ -97,14 +97,14 @@ TEST(HomeGraph, ZoneCutsShortcutsForGoodButNotTheTrail) {
   const test::GridWorld world = hall();
   const auto map = mapOf(world).freeze();
   HomeGraph graph = outAndBack();
-  graph.connect(*map);
+  graph.connect(map);
   const Pose end{{5.0, 4.5, 2.5}, 0.0};
   ASSERT_LT(lengthOf(*graph.wayFrom(end)), 10.0);  // across
   NoGoZone zone;
   zone.polygon = {{2.0, 3.2}, {28.0, 3.2}, {28.0, 3.8}, {2.0, 3.8}};
   graph.noteZone(zone);
-  for (int k = 0; k < 10; ++k) graph.connect(*map);
-  graph.recheckAll(*map);
+  for (int k = 0; k < 10; ++k) graph.connect(map);
+  graph.recheckAll(map);
   EXPECT_NEAR(lengthOf(*graph.wayFrom(end)), 44.0, 1.5);  // the way it came
 }
 
@@ -130,7 +130,7 @@ TEST(HomeGraph, TakesNoShortcutWithoutFooting) {
                   });
   for (double x = 3.0; x <= 25.0; x += 0.25) graph.addTrail({{x, 2.5, 2.5}, 0.0});
   for (double x = 25.0; x >= 5.0; x -= 0.25) graph.addTrail({{x, 4.5, 2.5}, 0.0});
-  graph.connect(*map);
+  graph.connect(map);
   EXPECT_GT(asked, 10);
   EXPECT_NEAR(lengthOf(*graph.wayFrom({{5.0, 4.5, 2.5}, 0.0})), 44.0, 1.5);
 }

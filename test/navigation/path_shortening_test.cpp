@@ -26,23 +26,23 @@ Path zigzag() {
 }
 
 TEST(PathShortening, TakesTheZigzagOutOfAFreeCorridor) {
-  SegmentChecker checker(corridor(), kBox);
+  map::ConfigurationSpace space(kBox, corridor());
   const Path path = zigzag();
-  const Path shorter = shortened(path, checker, 6.0);
+  const Path shorter = shortened(path, space, 6.0);
   EXPECT_EQ(shorter.front().position, path.front().position);
   EXPECT_EQ(shorter.back().position, path.back().position);
   EXPECT_LT(shorter.size(), 8U);
   EXPECT_LT(lengthOf(shorter), 0.9 * lengthOf(path));
   for (std::size_t i = 1; i < shorter.size(); ++i)
-    EXPECT_TRUE(checker.isFree(shorter[i - 1].position, shorter[i].position));
+    EXPECT_TRUE(space.isSweepFree(shorter[i - 1].position, shorter[i].position));
 }
 
 TEST(PathShortening, KeepsWhatCannotBeShortened) {
   map::OccupancyMap unknown(map::MapParams{});
-  SegmentChecker checker(unknown.freeze(), kBox);
+  map::ConfigurationSpace space(kBox, unknown.freeze());
   const Path path = zigzag();
-  EXPECT_EQ(shortened(path, checker, 6.0).size(), path.size());
-  EXPECT_EQ(shortened({path.front()}, checker, 6.0).size(), 1U);
+  EXPECT_EQ(shortened(path, space, 6.0).size(), path.size());
+  EXPECT_EQ(shortened({path.front()}, space, 6.0).size(), 1U);
 }
 
 }  // namespace

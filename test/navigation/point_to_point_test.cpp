@@ -43,7 +43,8 @@ TEST(PointToPoint, FindsTheDoor) {
   EXPECT_EQ(result.path.front().position, asked.start.position);
   EXPECT_EQ(result.path.back().position, asked.goal.position);
   EXPECT_EQ(result.path.back().yaw, 1.0);
-  EXPECT_TRUE(checkPath(*asked.map, result.path, asked.box, {}, {}).isFree());
+  map::ConfigurationSpace space(asked.box, asked.map);
+  EXPECT_TRUE(checkPath(space, result.path, {}, {}).isFree());
   EXPECT_LT(lengthOf(result.path), 45.0);
 }
 

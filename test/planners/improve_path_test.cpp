@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "spelunk/map/inflated_window.h"
+#include "spelunk/map/configuration_space.h"
 #include "support/grid_world.h"
 
 namespace spelunk::planners::gbplanner {
@@ -20,9 +20,7 @@ class ACorridor : public ::testing::Test {
     map::OccupancyMap map(params);
     test::corridorWorld(24.0).enterInto(map);
     frozen_ = map.freeze();
-    window_ = std::make_unique<map::LocalWindow>(*frozen_,
-                                                 AxisAlignedBox{{0.0, 0.0, 0.0}, {24.0, 5.0, 5.0}});
-    inflated_ = std::make_unique<map::InflatedWindow>(*window_, kBox);
+    inflated_ = std::make_unique<map::ConfigurationSpace>(kBox, frozen_);
   }
   [[nodiscard]] FreeSpace space() const {
     return {[this](const auto& a, const auto& b) { return inflated_->sweep(a, b); }, kBox, bounds_,
@@ -32,12 +30,11 @@ class ACorridor : public ::testing::Test {
   AxisAlignedBox bounds_;
   std::vector<NoGoZone> zones_;
   std::shared_ptr<const map::FrozenMap> frozen_;
-  std::unique_ptr<map::LocalWindow> window_;
-  std::unique_ptr<map::InflatedWindow> inflated_;
+  std::unique_ptr<map::ConfigurationSpace> inflated_;
 };
 
 TEST_F(ACorridor, HasItsRoomiestPointOnItsAxis) {
-  const Eigen::Vector3d moved = roomiestPoint({5.0, 1.8, 2.0}, {9.0, 1.8, 2.0}, *window_, 3.0);
+  const Eigen::Vector3d moved = roomiestPoint({5.0, 1.8, 2.0}, {9.0, 1.8, 2.0}, *frozen_, 3.0);
   EXPECT_NEAR(moved.x(), 9.0, 1e-9);
   EXPECT_NEAR(moved.y(), 2.5, 0.15);
   EXPECT_NEAR(moved.z(), 2.5, 0.15);
@@ -45,13 +42,13 @@ TEST_F(ACorridor, HasItsRoomiestPointOnItsAxis) {
 
 TEST_F(ACorridor, LeavesAnEdgeWithoutLengthAlone) {
   const Eigen::Vector3d point(5.0, 1.8, 2.0);
-  EXPECT_EQ(roomiestPoint(point, point, *window_, 3.0), point);
+  EXPECT_EQ(roomiestPoint(point, point, *frozen_, 3.0), point);
 }
 
 TEST_F(ACorridor, MovesAPathAwayFromItsWallsAndKeepsItFree) {
   const graph::Polyline path{{3, 1.8, 1.8}, {7, 3.2, 1.8}, {11, 1.8, 3.2}, {15, 1.8, 1.8}};
   const FreeSpace free = space();
-  const graph::Polyline improved = improvedPath(path, free, *window_, {3.0, 0.5, 3.0});
+  const graph::Polyline improved = improvedPath(path, free, *frozen_, {3.0, 0.5, 3.0});
   ASSERT_GE(improved.size(), 2U);
   EXPECT_EQ(improved.front(), path.front());
   for (std::size_t i = 1; i < improved.size(); ++i) {

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "spelunk/map/inflated_window.h"
+#include "spelunk/map/configuration_space.h"
 #include "support/grid_world.h"
 
 namespace spelunk::planners::gbplanner {
@@ -19,24 +19,23 @@ class AKnownCorridor : public ::testing::Test {
     map_params.range_min_m = 0.0;
     map::OccupancyMap map(map_params);
     test::corridorWorld(24.0).enterInto(map);
-    window_ = std::make_unique<map::LocalWindow>(*map.freeze(),
-                                                 AxisAlignedBox{{0.0, 0.0, 0.0}, {24.0, 5.0, 5.0}});
-    inflated_ = std::make_unique<map::InflatedWindow>(*window_, kBox);
+    frozen_ = map.freeze();
+    inflated_ = std::make_unique<map::ConfigurationSpace>(kBox, frozen_);
   }
   [[nodiscard]] FreeSpace space() const {
     return {[this](const auto& a, const auto& b) { return inflated_->sweep(a, b); }, kBox, bounds_,
             zones_};
   }
   [[nodiscard]] LocalGraph build(std::uint64_t seed, const PlanBudget& budget, PlanStats& stats) {
-    const FreeSampler sampler(*window_, {{0.0, 0.0, 0.0}, {24.0, 5.0, 5.0}});
+    const map::FreeVoxels sampler(frozen_, {{0.0, 0.0, 0.0}, {24.0, 5.0, 5.0}});
     return buildLocalGraph(kRoot, sampler, space(), space(), params_, budget, Rng(seed), stats);
   }
 
   AxisAlignedBox bounds_;
   std::vector<NoGoZone> zones_;
   GbPlannerParams params_;
-  std::unique_ptr<map::LocalWindow> window_;
-  std::unique_ptr<map::InflatedWindow> inflated_;
+  std::shared_ptr<const map::FrozenMap> frozen_;
+  std::unique_ptr<map::ConfigurationSpace> inflated_;
 };
 
 TEST_F(AKnownCorridor, GrowsAConnectedGraphOfFreeEdges) {
@@ -88,14 +87,15 @@ TEST_F(AKnownCorridor, CountsWhySamplesWereRejected) {
 
 TEST_F(AKnownCorridor, SamplesOnlyKnownFreeSpaceOfTheBox) {
   const AxisAlignedBox box{{5.0, 0.0, 0.0}, {9.0, 5.0, 5.0}};
-  const FreeSampler sampler(*window_, box);
+  const map::FreeVoxels sampler(frozen_, box);
   Rng rng(4);
   for (int i = 0; i < 500; ++i) {
     const Eigen::Vector3d point = *sampler.draw(rng);
-    EXPECT_EQ(window_->at(point), map::Occupancy::kFree);
+    EXPECT_EQ(frozen_->at(point), map::Occupancy::kFree);
     EXPECT_TRUE(box.contains(point));
   }
-  EXPECT_FALSE(FreeSampler(*window_, {{0.0, 0.0, 0.0}, {0.9, 5.0, 5.0}}).draw(rng).has_value());
+  EXPECT_FALSE(
+      map::FreeVoxels(frozen_, {{0.0, 0.0, 0.0}, {0.9, 5.0, 5.0}}).draw(rng).has_value());
 }
 
 }  // namespace

@@ -55,8 +55,9 @@ class EveryPlanner : public ::testing::TestWithParam<std::string> {
     ASSERT_EQ(result.status, PlanStatus::kOk) << result.reason;
     EXPECT_EQ(result.path.front().position, request_.pose.position);
     EXPECT_EQ(result.path.front().yaw, request_.pose.yaw);
-    const navigation::PathCheck check = navigation::checkPath(
-        *request_.map, result.path, robot_.box_m, request_.zones, request_.bounds);
+    map::ConfigurationSpace space(robot_.box_m, request_.map);
+    const navigation::PathCheck check =
+        navigation::checkPath(space, result.path, request_.zones, request_.bounds);
     EXPECT_TRUE(check.isFree()) << toText(check.fault) << " at " << check.arc_m << " m";
   }
 

@@ -11,7 +11,7 @@
 #include "spelunk/common/path.h"
 #include "spelunk/graph/shortest_paths.h"
 #include "spelunk/graph/spatial_graph.h"
-#include "spelunk/map/frozen_map.h"
+#include "spelunk/map/configuration_space.h"
 #include "spelunk/navigation/path_monitor.h"
 
 namespace spelunk::mission {
@@ -45,9 +45,9 @@ class HomeGraph {
   void noteOccupied(const std::vector<map::VoxelIndex>& voxels);
   /// Tries shortcuts from the places added since the last call and takes up cut edges that are free
   /// again (some a call).
-  void connect(const map::FrozenMap& map);
+  void connect(const std::shared_ptr<const map::FrozenMap>& map);
   /// The same for every cut edge; for when no way is left.
-  void recheckAll(const map::FrozenMap& map);
+  void recheckAll(const std::shared_ptr<const map::FrozenMap>& map);
 
   /// The shortest known way from a pose to home, first waypoint `from`, last one home; none if the
   /// graph is cut.
@@ -71,10 +71,11 @@ class HomeGraph {
   graph::VertexId addVertex(const Eigen::Vector3d& position);
   void addEdge(graph::VertexId a, graph::VertexId b, Origin origin);
   void setState(Edge& edge, EdgeState state);
+  void use(const std::shared_ptr<const map::FrozenMap>& map);
   void tryShortcuts(graph::VertexId id, const map::FrozenMap& map);
-  void recheck(Edge& edge, const map::FrozenMap& map);
-  [[nodiscard]] bool isFree(graph::VertexId a, graph::VertexId b, const Eigen::Vector3d& box,
-                            const map::FrozenMap& map) const;
+  void recheck(Edge& edge);
+  [[nodiscard]] bool isFree(graph::VertexId a, graph::VertexId b,
+                            map::ConfigurationSpace& space) const;
   [[nodiscard]] bool isForbidden(const Eigen::Vector3d& a, const Eigen::Vector3d& b) const;
   const graph::ShortestPaths& fromHome();
 
@@ -83,6 +84,8 @@ class HomeGraph {
   graph::SpatialGraph graph_;
   std::vector<Edge> edges_;
   std::vector<NoGoZone> zones_;
+  map::ConfigurationSpace space_;
+  map::ConfigurationSpace tight_space_;
   navigation::SweptIndex swept_;
   navigation::SweptIndex swept_tight_;
   Path trail_;

@@ -1,14 +1,11 @@
 #pragma once
 
-#include <Eigen/Core>
-#include <memory>
 #include <string>
 #include <vector>
 
 #include "spelunk/common/box.h"
 #include "spelunk/common/path.h"
-#include "spelunk/map/frozen_map.h"
-#include "spelunk/map/inflated_window.h"
+#include "spelunk/map/configuration_space.h"
 
 namespace spelunk::navigation {
 
@@ -27,36 +24,12 @@ struct PathCheck {
   [[nodiscard]] bool isFree() const { return fault == PathFault::kNone; }
 };
 
-/// Checks the box (axis-aligned, full extents, metres, centred on the path) moved along the whole
-/// path: every voxel it touches must be known free, every position inside `bounds`, and the box
-/// outside all zones. A segment up to 8 m long is one InflatedWindow::sweep from end to end, so the
-/// answer equals what a planner gets that sweeps the same segment. A path of one pose is checked
-/// there; an empty one breaks the contract.
-[[nodiscard]] PathCheck checkPath(const map::FrozenMap& map, const Path& path,
-                                  const Eigen::Vector3d& box, const std::vector<NoGoZone>& zones,
-                                  const AxisAlignedBox& bounds);
-
-/// Answers many box sweeps over a large map: inflated windows are made where a query falls and kept
-/// (tiles of 6.4 m), so a query costs a look-up and a walk. Same answers as checkPath() without
-/// bounds and zones. Holds the map alive. Not thread-safe.
-class SegmentChecker {
- public:
-  SegmentChecker(std::shared_ptr<const map::FrozenMap> map, const Eigen::Vector3d& box);
-  ~SegmentChecker();
-  SegmentChecker(SegmentChecker&&) noexcept;
-
-  /// kFree, or why the box moved straight from `a` to `b` is not in known free space.
-  [[nodiscard]] map::Occupancy sweep(const Eigen::Vector3d& a, const Eigen::Vector3d& b);
-  [[nodiscard]] bool isFree(const Eigen::Vector3d& a, const Eigen::Vector3d& b);
-  /// The box standing at one point.
-  [[nodiscard]] map::Occupancy boxAt(const Eigen::Vector3d& centre);
-
-  /// How many windows were made so far.
-  [[nodiscard]] std::size_t windows() const;
-
- private:
-  struct Impl;
-  std::unique_ptr<Impl> impl_;
-};
+/// Checks the box of `space` (centred on the path) moved along the whole path: every voxel it
+/// touches must be free there, every position inside `bounds`, and the box outside all zones. A
+/// segment is one ConfigurationSpace::sweep from end to end, so the answer equals what a planner
+/// gets that sweeps the same segment. A path of one pose is checked there; an empty one breaks the
+/// contract.
+[[nodiscard]] PathCheck checkPath(map::ConfigurationSpace& space, const Path& path,
+                                  const std::vector<NoGoZone>& zones, const AxisAlignedBox& bounds);
 
 }  // namespace spelunk::navigation

@@ -44,13 +44,6 @@ Polyline toLine(const Path& path) {
   return line;
 }
 
-/// Around a place: what joining it to the global graph looks at.
-Eigen::Vector3d joiningBox(const GbPlannerParams& params) {
-  constexpr double kDetour = 1.5;  // the first step out of a blocked start may lead away
-  return Eigen::Vector3d::Constant(2.0 * kDetour * params.global_radius_m)
-      .cwiseMin(params.local_box_m);
-}
-
 double longestRange(const RobotModel& robot) {
   double range = 0.0;
   for (const SensorModel& sensor : robot.sensor_models) range = std::max(range, sensor.range_max_m);
@@ -71,10 +64,10 @@ struct GbPlanner::Search {
   LocalPlan local{};
   double way_home_m = 0.0;
 
-  Search(GbPlanner& owner, const PlanRequest& asked, const Eigen::Vector3d& box_m)
+  Search(GbPlanner& owner, const PlanRequest& asked)
       : planner(owner),
         request(asked),
-        view(asked, owner.robot_, owner.params_, owner.evaluator_, box_m) {}
+        view(asked, owner.robot_, owner.params_, owner.evaluator_, {owner.body_, owner.roomy_}) {}
 
   [[nodiscard]] const map::FrozenMap& credible() const {
     return *planner.credible_.of(request.map);
@@ -89,10 +82,10 @@ struct GbPlanner::Search {
     if (planner.global_.isEmpty()) planner.global_.setHome(request.home.position);
     for (const StampedPose& stamped : request.trail) {
       if (stamped.time_s <= planner.trail_known_until_s_) continue;
-      planner.global_.addFlown(stamped.pose.position, view.localSpace());
+      planner.global_.addFlown(stamped.pose.position, view.space());
       planner.trail_known_until_s_ = stamped.time_s;
     }
-    current = planner.global_.addPoint(root, view.localSpace());
+    current = planner.global_.addPoint(root, view.space());
     if (planner.checked_zones_ != request.zones.size()) {
       planner.global_.forgetChecksNear(root, std::numeric_limits<double>::infinity());
       planner.checked_zones_ = request.zones.size();
@@ -110,7 +103,7 @@ struct GbPlanner::Search {
                           request.last_outcome == PathOutcome::kReplaced;
     LocalContext context{planner.tried_, std::nullopt,
                          std::isfinite(way_home_m) ? way_home_m : 0.0};
-    if (flies_on) context.previous_target = previous->target;
+    if (flies_on) context.previous_target = previous->end;
     local =
         gbplanner::planLocally(request, view, root, context, planner.robot_, params, result.stats);
   }
@@ -130,10 +123,10 @@ struct GbPlanner::Search {
   void extendGlobalGraph() {
     const Stopwatch watch;
     reevaluateFrontiers();
-    if (!local.best.empty()) planner.global_.addPath(local.best, view.localSpace());
+    if (!local.best.empty()) planner.global_.addPath(local.best, view.space());
     for (const PrincipalPath& principal : local.principals) {
       if (planner.global_.hasFrontierNear(principal.path.back())) continue;
-      const VertexId leaf = planner.global_.addPath(principal.path, view.localSpace());
+      const VertexId leaf = planner.global_.addPath(principal.path, view.space());
       planner.global_.markFrontier(leaf, principal.gain_m3);
     }
     result.stats.global_ms = watch.milliseconds();
@@ -160,7 +153,7 @@ struct GbPlanner::Search {
   void followLocalPath() {
     const Polyline cut = toLine(slice(toPath(local.best, {root, request.pose.yaw}), 0.0,
                                       planner.params_.local_length_max_m));
-    finish(improved(cut, view.localSpace()), PathKind::kLocal);
+    finish(improved(cut), PathKind::kLocal, local.best.back());
     result.reason =
         "local path, " + std::to_string(std::lround(local.best_gain_m3)) + " m3 expected along it";
   }
@@ -175,14 +168,14 @@ struct GbPlanner::Search {
                               return gainAnywhere(request, credible(), planner.evaluator_, at,
                                                   request.pose.yaw);
                             }};
-    GlobalPlan plan = gbplanner::planGlobally(planner.global_, query, view.globalSpace(),
-                                              planner.tried_, planner.params_);
+    GlobalPlan plan = gbplanner::planGlobally(planner.global_, query, view.space(), planner.tried_,
+                                              planner.params_);
     result.stats.global_ms += watch.milliseconds();
     return plan;
   }
 
   void reposition(const GlobalPlan& plan) {
-    finish(improved(fromRoot(plan.path), view.globalSpace()), PathKind::kReposition);
+    finish(improved(fromRoot(plan.path)), PathKind::kReposition, plan.path.back());
     result.reason = "reposition to a frontier of " + std::to_string(std::lround(plan.gain_m3)) +
                     " m3, " + std::to_string(std::lround(lengthOf(result.path))) + " m away";
   }
@@ -204,14 +197,14 @@ struct GbPlanner::Search {
 
   void goHome() {
     Polyline way =
-        fromRoot(planner.global_.findFreePath(current, GlobalGraph::home(), view.globalSpace()));
+        fromRoot(planner.global_.findFreePath(current, GlobalGraph::home(), view.space()));
     if (way.empty()) {
       result.status = PlanStatus::kNoPath;
       result.reason = "no free path home is left in the global graph";
       return;
     }
     const GbPlannerParams& params = planner.params_;
-    way = shortened(way, view.globalSpace(), params.shortcut_length_max_m);
+    way = shortened(way, view.space(), params.shortcut_length_max_m);
     result.status = PlanStatus::kOk;
     result.kind = PathKind::kHome;
     result.path = startingAtPose(way);
@@ -262,22 +255,23 @@ struct GbPlanner::Search {
     }
   }
 
-  Polyline improved(const Polyline& line, const FreeSpace& space) {
+  Polyline improved(const Polyline& line) {
     const Stopwatch watch;
     const GbPlannerParams& params = planner.params_;
     Polyline better = improvedPath(
-        line, space, view.window(),
+        line, view.space(), *request.map,
         {params.shortcut_length_max_m, params.prune_length_m, params.inflation_radius_m});
     result.stats.improve_ms += watch.milliseconds();
     return better;
   }
 
-  void finish(const Polyline& line, PathKind kind) {
+  /// `target`: where the path was to lead before it was cut and improved.
+  void finish(const Polyline& line, PathKind kind, const Eigen::Vector3d& target) {
     result.status = PlanStatus::kOk;
     result.kind = kind;
     result.path = startingAtPose(line);
-    planner.proposal_ = Proposal{kind, line.back()};
-    if (kind == PathKind::kLocal) planner.global_.addPath(line, view.localSpace());
+    planner.proposal_ = Proposal{kind, target, line.back()};
+    if (kind == PathKind::kLocal) planner.global_.addPath(line, view.space());
   }
 
   void fillStats() {
@@ -307,16 +301,18 @@ GbPlanner::GbPlanner(const GbPlannerParams& params, const RobotModel& robot, dou
       evaluator_(robot.sensor_models, resolution_m,
                  params.count_cones ? map::GainCounting::kCone : map::GainCounting::kPerRay),
       credible_({params.closing_height_m, params.growth_m}),
+      body_(robot.box_m),
+      roomy_(robot.box_m + 2.0 * params.safety_margin_m),
       global_(limitsFrom(params)),
       tried_(params.tried_radius_m),
       trail_known_until_s_(-std::numeric_limits<double>::infinity()) {}
 
 PlanResult GbPlanner::doPlan(const PlanRequest& request) {
   const Stopwatch watch;
-  Search search(*this, request, params_.local_box_m);
-  search.view.prepareSearch(search.credible());
+  Search search(*this, request);
+  search.view.prepareGains(search.credible());
   search.result.stats.window_ms = watch.milliseconds();
-  const StartCheck start = checkStart(request, search.view.localSpace());
+  const StartCheck start = checkStart(request, search.view.space());
   if (!start.root) return refusedStart(start);
   search.root = *start.root;
   search.noteOutcome();
@@ -332,8 +328,8 @@ PlanResult GbPlanner::doPlan(const PlanRequest& request) {
 
 PlanResult GbPlanner::doPlanHome(const PlanRequest& request) {
   const Stopwatch watch;
-  Search search(*this, request, joiningBox(params_));
-  const StartCheck start = checkStart(request, search.view.localSpace());
+  Search search(*this, request);
+  const StartCheck start = checkStart(request, search.view.space());
   if (!start.root) return refusedStart(start);
   search.root = *start.root;
   search.joinGlobalGraph();

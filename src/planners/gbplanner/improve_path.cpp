@@ -45,26 +45,17 @@ struct EdgeFrame {
 
 /// Occupied voxel centres near an edge, in the edge's frame.
 std::vector<Eigen::Vector3d> obstaclesNear(const EdgeFrame& frame, const Eigen::Vector3d& a,
-                                           const Eigen::Vector3d& b, const map::LocalWindow& window,
+                                           const Eigen::Vector3d& b, const map::FrozenMap& map,
                                            double radius_m) {
   const Eigen::Vector3d reach = Eigen::Vector3d::Constant(radius_m);
-  const map::VoxelIndex low = window.indexOf(a.cwiseMin(b) - reach).cwiseMax(window.origin());
-  const map::VoxelIndex high =
-      window.indexOf(a.cwiseMax(b) + reach)
-          .cwiseMin((window.origin().array() + window.size().array() - 1).matrix());
   std::vector<Eigen::Vector3d> obstacles;
-  map::VoxelIndex index;
-  for (index.z() = low.z(); index.z() <= high.z(); ++index.z()) {
-    for (index.y() = low.y(); index.y() <= high.y(); ++index.y()) {
-      for (index.x() = low.x(); index.x() <= high.x(); ++index.x()) {
-        if (window.at(index) != map::Occupancy::kOccupied) continue;
-        const Eigen::Vector3d local = frame.local(window.centreOf(index));
+  map.forEachOccupied(
+      {a.cwiseMin(b) - reach, a.cwiseMax(b) + reach}, [&](const map::VoxelIndex& voxel) {
+        const Eigen::Vector3d local = frame.local(map.centreOf(voxel));
         const bool is_near = std::abs(local.x()) <= frame.half_length + radius_m &&
                              local.tail<2>().squaredNorm() <= 2.0 * radius_m * radius_m;
         if (is_near) obstacles.push_back(local);
-      }
-    }
-  }
+      });
   return obstacles;
 }
 
@@ -161,12 +152,12 @@ Polyline pruned(const Polyline& path, const FreeSpace& space, double length_m) {
 }
 
 Eigen::Vector3d roomiestPoint(const Eigen::Vector3d& a, const Eigen::Vector3d& b,
-                              const map::LocalWindow& window, double radius_m) {
+                              const map::FrozenMap& map, double radius_m) {
   constexpr double kNoLength = 1e-6;
   if ((b - a).norm() < kNoLength) return b;
   const EdgeFrame frame(a, b);
   const std::vector<Halfspace> planes =
-      tangentPlanes(obstaclesNear(frame, a, b, window, radius_m), frame.half_length, radius_m);
+      tangentPlanes(obstaclesNear(frame, a, b, map, radius_m), frame.half_length, radius_m);
   Polygon polygon{
       {-radius_m, -radius_m}, {radius_m, -radius_m}, {radius_m, radius_m}, {-radius_m, radius_m}};
   for (const Halfspace& plane : planes) {
@@ -178,13 +169,13 @@ Eigen::Vector3d roomiestPoint(const Eigen::Vector3d& a, const Eigen::Vector3d& b
   return b + frame.axes[1] * centre.x() + frame.axes[2] * centre.y();
 }
 
-Polyline improvedPath(const Polyline& path, const FreeSpace& space, const map::LocalWindow& window,
+Polyline improvedPath(const Polyline& path, const FreeSpace& space, const map::FrozenMap& map,
                       const ImproveLimits& limits) {
   Polyline improved =
       pruned(shortened(path, space, limits.shortcut_length_max_m), space, limits.prune_length_m);
   for (std::size_t i = 1; i < improved.size(); ++i) {
     const Eigen::Vector3d centre =
-        roomiestPoint(improved[i - 1], improved[i], window, limits.inflation_radius_m);
+        roomiestPoint(improved[i - 1], improved[i], map, limits.inflation_radius_m);
     for (const double share : {1.0, 0.5}) {
       const auto moved =
           space.placed(improved[i] + share * (centre - improved[i]), improved[i - 1]);

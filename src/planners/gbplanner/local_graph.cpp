@@ -106,7 +106,7 @@ struct Expansion {
 
 }  // namespace
 
-LocalGraph buildLocalGraph(const Eigen::Vector3d& root, const FreeSampler& sampler,
+LocalGraph buildLocalGraph(const Eigen::Vector3d& root, const map::FreeVoxels& sampler,
                            const FreeSpace& space, const FreeSpace& roomy,
                            const GbPlannerParams& params, const PlanBudget& budget, Rng rng,
                            PlanStats& stats) {

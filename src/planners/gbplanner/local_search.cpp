@@ -26,8 +26,8 @@ struct Search {
 
   void buildGraph(const Eigen::Vector3d& root) {
     const Stopwatch watch;
-    plan.local = buildLocalGraph(root, FreeSampler(view.window(), view.localBox()),
-                                 view.localSpace(), view.roomySpace(), params, request.budget,
+    plan.local = buildLocalGraph(root, map::FreeVoxels(view.map(), view.localBox()), view.space(),
+                                 view.roomySpace(), params, request.budget,
                                  request.rng.fork("gbplanner/local_graph"), stats);
     stats.graph_ms = watch.milliseconds();
   }

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "spelunk/common/robot_model.h"
+#include "spelunk/map/configuration_space.h"
 #include "spelunk/map/credible_map.h"
 #include "spelunk/map/volumetric_gain.h"
 #include "spelunk/planners/exploration_planner.h"
@@ -35,7 +36,8 @@ class GbPlanner final : public ExplorationPlanner {
   /// The newest path proposed by plan().
   struct Proposal {
     PathKind kind = PathKind::kLocal;
-    Eigen::Vector3d target = Eigen::Vector3d::Zero();
+    Eigen::Vector3d target = Eigen::Vector3d::Zero();  ///< The vertex it was chosen for.
+    Eigen::Vector3d end = Eigen::Vector3d::Zero();     ///< Where it ends: it may have been cut.
   };
   struct Search;
 
@@ -46,6 +48,8 @@ class GbPlanner final : public ExplorationPlanner {
   RobotModel robot_;
   map::GainEvaluator evaluator_;
   map::CredibleMap credible_;
+  map::ConfigurationSpace body_;
+  map::ConfigurationSpace roomy_;  ///< With the safety margin.
   GlobalGraph global_;
   TriedTargets tried_;
   std::optional<Proposal> proposal_;

@@ -3,9 +3,9 @@
 #include "spelunk/common/rng.h"
 #include "spelunk/graph/shortest_paths.h"
 #include "spelunk/graph/spatial_graph.h"
+#include "spelunk/map/free_voxels.h"
 #include "spelunk/planners/exploration_planner.h"
 #include "spelunk/planners/gbplanner/gb_planner_params.h"
-#include "spelunk/planners/shared/free_sampler.h"
 #include "spelunk/planners/shared/free_space.h"
 
 namespace spelunk::planners::gbplanner {
@@ -24,9 +24,9 @@ struct LocalGraph {
 /// free in galleries; one nearer than edge_length_min_m is dropped, since it would see what its
 /// neighbour sees; and a graph that has not filled up after a fifth of its samples stands in a
 /// tight place, where blocked steps are tried again at a half, a quarter, ... of their length.
-[[nodiscard]] LocalGraph buildLocalGraph(const Eigen::Vector3d& root, const FreeSampler& sampler,
-                                         const FreeSpace& space, const FreeSpace& roomy,
-                                         const GbPlannerParams& params, const PlanBudget& budget,
-                                         Rng rng, PlanStats& stats);
+[[nodiscard]] LocalGraph buildLocalGraph(const Eigen::Vector3d& root,
+                                         const map::FreeVoxels& sampler, const FreeSpace& space,
+                                         const FreeSpace& roomy, const GbPlannerParams& params,
+                                         const PlanBudget& budget, Rng rng, PlanStats& stats);
 
 }  // namespace spelunk::planners::gbplanner

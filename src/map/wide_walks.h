@@ -1,0 +1,18 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "ray_grid.h"
+
+namespace spelunk::map {
+
+/// Whether this processor has registers of eight doubles (AVX-512) and the program knows them.
+[[nodiscard]] bool hasEightLanes();
+
+/// Marks what the walks pass through, eight of them at a time. Additions and comparisons only, so
+/// the same voxels as one by one. Only where hasEightLanes().
+void walkThroughByEights(const std::vector<RayWalk>& walks, const RayGrid& grid,
+                         std::uint64_t* words);
+
+}  // namespace spelunk::map
