@@ -187,6 +187,7 @@ void MissionRun::Impl::finish() {
   record.collision_s = simulator.collisions().seconds;
   record.falls = simulator.walkerCount().falls;
   record.slips = simulator.walkerCount().slips;
+  record.trips = simulator.walkerCount().trips;
   record.zones_marked = status.zones_marked;
   record.returned_home = status.state == mission::MissionState::kDone;
   record.remaining_at_home_s = record.returned_home ? remaining() : 0.0;

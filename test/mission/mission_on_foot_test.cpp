@@ -45,7 +45,7 @@ class MissionOnFoot : public testing::Test {
 
   [[nodiscard]] Scan floorAround(double x) const {
     Scan scan;
-    scan.stamp_s = now_;
+    scan.stamp_s = now_ - late_s_;
     scan.T_world_sensor = Eigen::Translation3d(x, 0.0, 1.0) * Eigen::Quaterniond::Identity();
     for (double dx = -3.0; dx <= 3.0; dx += 0.05)
       for (double dy = -3.0; dy <= 3.0; dy += 0.05)
@@ -55,6 +55,7 @@ class MissionOnFoot : public testing::Test {
 
   Mission mission_{{}, leggedRobot(), test::coarseMap(), 1};
   double now_ = 0.0;
+  double late_s_ = 0.0;
 };
 
 TEST_F(MissionOnFoot, StopsAndSaysSoAfterAFall) {
@@ -80,6 +81,17 @@ TEST_F(MissionOnFoot, StartsAgainOnlyOnItsFeet) {
   EXPECT_NE(lying.reason.find("on its side"), std::string::npos) << lying.reason;
   standFor(0.5, 0.0);
   EXPECT_TRUE(mission_.start().accepted) << mission_.status().reason;
+}
+
+TEST_F(MissionOnFoot, HoldsWhileScansComeInLate) {
+  standFor(0.5, 0.0);
+  ASSERT_TRUE(mission_.start().accepted);
+  standFor(1.0, 0.0);
+  EXPECT_EQ(mission_.status().reason.find("late"), std::string::npos);
+  late_s_ = 3.0;
+  standFor(4.0, 0.0);
+  EXPECT_NE(mission_.status().reason.find("scans come in 3.0 s late"), std::string::npos)
+      << mission_.status().reason;
 }
 
 TEST_F(MissionOnFoot, ShowsPathsOfItsBase) {

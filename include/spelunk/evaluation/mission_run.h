@@ -49,6 +49,7 @@ struct RunRecord {
   double min_clearance_m = 0.0;  ///< Of the robot's body to the mesh.
   int falls = 0;
   int slips = 0;
+  int trips = 0;
   int zones_marked = 0;
   double remaining_at_home_s = 0.0;
   std::vector<TimelineRow> timeline;
