@@ -7,6 +7,7 @@ namespace spelunk::mission {
 namespace {
 
 constexpr double kCheckPeriod_s = 0.25;
+constexpr double kGroundScanPeriod_s = 0.15;  // of one sensor: more show the same ground again
 constexpr double kLookAhead_m = 2.0;     // beyond the way to a standstill
 constexpr double kStopBefore_m = 0.6;    // bad ground, front of the footprint
 constexpr double kUnseenBefore_m = 0.2;  // ground that should have been seen by now
@@ -18,6 +19,7 @@ constexpr double kZoneMargin_m = 0.1;
 constexpr double kZoneRadiusMin_m = 0.25;
 constexpr double kZoneShrink_m = 0.05;
 constexpr double kWalkedOn_m = 0.4;  // beside the trail
+constexpr double kLateMax_s = 2.0;  // beyond it the mission holds
 constexpr double kSamePlace_m = 0.5;
 constexpr double kLook_s = 1.0;
 constexpr double kWallReach_m = 0.8;  // full extents of where a wall is looked for
@@ -53,7 +55,13 @@ NoGoZone zoneBeside(const terrain::PathGroundCheck& bad, const Eigen::Vector3d& 
 }  // namespace
 
 void Mission::Impl::noteGround(const Scan& scan) {
-  if (terrain && input.latest()) static_cast<void>(terrain->insert(scan, T_world_base));
+  if (!terrain || !input.latest()) return;
+  if (!scan.sensor.empty()) {
+    const auto last = ground_scans.find(scan.sensor);
+    if (last != ground_scans.end() && scan.stamp_s - last->second < kGroundScanPeriod_s) return;
+    ground_scans[scan.sensor] = scan.stamp_s;
+  }
+  static_cast<void>(terrain->insert(scan, T_world_base));
 }
 
 HomeGraph::Footing Mission::Impl::footingCheck() {
@@ -89,10 +97,11 @@ Path Mission::Impl::motionAhead(double length_m) const {
 void Mission::Impl::checkGround() {
   if (!terrain || !params.verify_ground || !active || backs_off || now < next_ground_check_s)
     return;
+  // A busy computer looks late, and at scans that are old: the robot has walked on meanwhile.
+  const double late_s = std::max(0.0, now - next_ground_check_s) + scanAge();
   next_ground_check_s = now + kCheckPeriod_s;
   const double speed = active->reference(now).velocity.norm();
-  // What the newest scan shows is as old as that scan: the robot has walked on meanwhile.
-  const double stop_m = brakingDistance(robot, speed) + speed * scanAge();
+  const double stop_m = brakingDistance(robot, speed) + speed * std::min(late_s, kLateMax_s);
   const auto check = terrain->checkPath(motionAhead(stop_m + kLookAhead_m), standing());
   const bool is_bad =
       check.status == terrain::PathGround::kUntraversable && check.arc_m < stop_m + kStopBefore_m;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <deque>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -186,6 +187,7 @@ struct Mission::Impl {
   std::deque<map::ConfigurationSpace> spaces;  ///< One a box that was asked for.
   Eigen::Isometry3d T_world_base = Eigen::Isometry3d::Identity();  ///< Newest, of the base itself.
   double next_ground_check_s = 0.0;
+  std::map<std::string, double> ground_scans;  ///< Stamp of the newest one in the terrain map.
   std::optional<Eigen::Vector3d> unseen_place;  ///< The robot has stood before it to look.
   double next_retime_s = 0.0;
   bool backs_off = false;
