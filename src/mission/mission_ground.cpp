@@ -8,9 +8,9 @@ namespace {
 
 constexpr double kCheckPeriod_s = 0.25;
 constexpr double kGroundScanPeriod_s = 0.15;  // of one sensor: more show the same ground again
-constexpr double kLookAhead_m = 2.0;     // beyond the way to a standstill
-constexpr double kStopBefore_m = 0.6;    // bad ground, front of the footprint
-constexpr double kUnseenBefore_m = 0.2;  // ground that should have been seen by now
+constexpr double kLookAhead_m = 2.0;          // beyond the way to a standstill
+constexpr double kStopBefore_m = 0.6;         // bad ground, front of the footprint
+constexpr double kUnseenBefore_m = 0.2;       // ground that should have been seen by now
 constexpr double kStartRadius_m = 3.0;
 constexpr double kSampling_s = 0.2;  // of the motion ahead
 constexpr double kBackOff_m = 0.5;   // Dang 2020, section 4.3
@@ -19,7 +19,7 @@ constexpr double kZoneMargin_m = 0.1;
 constexpr double kZoneRadiusMin_m = 0.25;
 constexpr double kZoneShrink_m = 0.05;
 constexpr double kWalkedOn_m = 0.4;  // beside the trail
-constexpr double kLateMax_s = 2.0;  // beyond it the mission holds
+constexpr double kLateMax_s = 2.0;   // beyond it the mission holds
 constexpr double kSamePlace_m = 0.5;
 constexpr double kLook_s = 1.0;
 constexpr double kWallReach_m = 0.8;  // full extents of where a wall is looked for
@@ -58,7 +58,8 @@ void Mission::Impl::noteGround(const Scan& scan) {
   if (!terrain || !input.latest()) return;
   if (!scan.sensor.empty()) {
     const auto last = ground_scans.find(scan.sensor);
-    if (last != ground_scans.end() && scan.stamp_s - last->second < kGroundScanPeriod_s) return;
+    if (last != ground_scans.end() && std::fabs(scan.stamp_s - last->second) < kGroundScanPeriod_s)
+      return;
     ground_scans[scan.sensor] = scan.stamp_s;
   }
   static_cast<void>(terrain->insert(scan, T_world_base));
