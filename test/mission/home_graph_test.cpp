@@ -114,7 +114,7 @@ TEST(HomeGraph, ZoneForbidsLaterShortcutsAndRoutes) {
   NoGoZone zone;
   zone.polygon = {{2.0, 3.2}, {28.0, 3.2}, {28.0, 3.8}, {2.0, 3.8}};
   graph.noteZone(zone);
-  graph.connect(*map);
+  graph.connect(map);
   graph.addRoute({{{5.0, 4.5, 2.5}, 0.0}, {{5.0, 2.5, 2.5}, 0.0}});
   EXPECT_NEAR(lengthOf(*graph.wayFrom({{5.0, 4.5, 2.5}, 0.0})), 44.0, 1.5);  // the way it came
 }
