@@ -20,7 +20,7 @@ class SquaredDistances {
       : size_(window.size()),
         reach_(reach),
         far_(static_cast<Cell>((reach + 1) * (reach + 1))),
-        cells_(window.cells().size()) {
+        cells_(window.cellCount()) {
     alongX(window);
     const auto row = static_cast<std::size_t>(size_.x());
     const std::size_t plane = row * static_cast<std::size_t>(size_.y());
@@ -34,7 +34,7 @@ class SquaredDistances {
   void alongX(const LocalWindow& window) {
     const std::ptrdiff_t length = size_.x();
     for (std::size_t start = 0; start < cells_.size(); start += static_cast<std::size_t>(length)) {
-      const std::uint8_t* from = window.cells().data() + start;
+      const std::uint8_t* from = window.cells() + start;
       Cell* to = cells_.data() + start;
       const auto squared = [&](int steps) {
         return steps > reach_ ? far_ : static_cast<Cell>(steps * steps);

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cstring>
+#include <new>
+#include <vector>
 
 #include "frozen_blocks.h"
 #include "spelunk/common/contract.h"
@@ -20,24 +22,11 @@ constexpr std::array<std::uint64_t, 256> spreadTable() {
 }
 constexpr std::array<std::uint64_t, 256> kSpread = spreadTable();
 
-/// The same to every other bit.
-constexpr std::array<std::uint16_t, 256> spreadPairsTable() {
-  std::array<std::uint16_t, 256> table{};
-  for (unsigned byte = 0; byte < 256; ++byte)
-    for (unsigned bit = 0; bit < 8; ++bit)
-      if (((byte >> bit) & 1) != 0)
-        table[byte] = static_cast<std::uint16_t>(table[byte] | (1U << (2 * bit)));
-  return table;
-}
-constexpr std::array<std::uint16_t, 256> kSpreadPairs = spreadPairsTable();
-constexpr std::size_t kReadableBeyond = 8;
-
 /// Copies a block's voxels that lie in the window; known + occupied is the status.
 class BlockCopier {
  public:
-  BlockCopier(const VoxelIndex& origin, const VoxelIndex& size, std::uint8_t* cells,
-              std::uint8_t* packed)
-      : origin_(origin), size_(size), cells_(cells), packed_(packed) {}
+  BlockCopier(const VoxelIndex& origin, const VoxelIndex& size, std::uint8_t* cells)
+      : origin_(origin), size_(size), cells_(cells) {}
 
   void copy(const StatusBlock& block, const VoxelIndex& corner) {
     if (block.known == Mask{}) return;
@@ -70,13 +59,6 @@ class BlockCopier {
       std::memcpy(cells_ + cell, bytes, kBlockSide);
     else
       std::copy(bytes + first, bytes + end, cells_ + cell);
-    const std::uint32_t pairs = static_cast<std::uint32_t>(kSpreadPairs[known]) +
-                                static_cast<std::uint32_t>(kSpreadPairs[occupied]);
-    const std::uint32_t kept = (pairs >> (2 * first)) & ((1U << (2 * (end - first))) - 1U);
-    std::uint32_t around = 0;
-    std::memcpy(&around, packed_ + cell / 4, sizeof(around));
-    around |= kept << (2 * (cell % 4));
-    std::memcpy(packed_ + cell / 4, &around, sizeof(around));
   }
   [[nodiscard]] std::size_t offsetOf(int x, int y, int z) const {
     return static_cast<std::size_t>(x) +
@@ -88,7 +70,6 @@ class BlockCopier {
   VoxelIndex origin_;
   VoxelIndex size_;
   std::uint8_t* cells_;
-  std::uint8_t* packed_;
   Extent known_{VoxelIndex::Constant(1 << 30), VoxelIndex::Constant(-(1 << 30))};
 };
 
@@ -142,9 +123,10 @@ LocalWindow::LocalWindow(const FrozenMap& map, const AxisAlignedBox& region)
   size_ = last - origin_ + VoxelIndex::Ones();
   row_cells_ = static_cast<std::size_t>(size_.x());
   plane_cells_ = row_cells_ * static_cast<std::size_t>(size_.y());
-  cells_.resize(static_cast<std::size_t>(size.prod()));
-  packed_.resize(cells_.size() / 4 + 1 + kReadableBeyond);
-  BlockCopier copier(origin_, size_, cells_.data(), packed_.data());
+  cell_count_ = static_cast<std::size_t>(size.prod());
+  cells_.reset(static_cast<std::uint8_t*>(std::calloc(cell_count_, 1)));
+  if (cells_ == nullptr) throw std::bad_alloc();
+  BlockCopier copier(origin_, size_, cells_.get());
   for (const StatusChunk* chunk : chunksIn(map.blocks(), origin_, last))
     copyChunk(*chunk, origin_, last, copier);
   known_first_ = copier.known().min;

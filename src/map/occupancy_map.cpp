@@ -28,10 +28,8 @@ bool isKeyable(const Eigen::Vector3d& point, double resolution_m) {
 struct OccupancyMap::Impl {
   explicit Impl(const MapParams& map_params) : params(map_params), blocks(LogOdds(map_params)) {}
 
-  [[nodiscard]] std::vector<Eigen::Vector3f> usablePoints(const Scan& scan,
-                                                          const AxisAlignedBox& robot_body,
-                                                          MapUpdate& update) const;
-  void markScan(const Eigen::Vector3f& origin, const std::vector<Eigen::Vector3f>& points);
+  void takeUsablePoints(const Scan& scan, const AxisAlignedBox& robot_body, MapUpdate& update);
+  void markScan(const Eigen::Vector3f& origin);
   void forget() {
     blocks = BlockMap(LogOdds(params));
     frozen = nullptr;
@@ -43,18 +41,18 @@ struct OccupancyMap::Impl {
   ScanMarks marks;
   ScanMarks ends;
   RayMarker marker;
+  std::vector<Eigen::Vector3f> usable;  ///< Of the scan; kept, so that no scan allocates.
+  std::vector<RayWalk> walks;
   std::shared_ptr<const FrozenMap> frozen;
   std::unique_ptr<OcTreeMirror> tree;
 };
 
-std::vector<Eigen::Vector3f> OccupancyMap::Impl::usablePoints(const Scan& scan,
-                                                              const AxisAlignedBox& robot_body,
-                                                              MapUpdate& update) const {
+void OccupancyMap::Impl::takeUsablePoints(const Scan& scan, const AxisAlignedBox& robot_body,
+                                          MapUpdate& update) {
   const Eigen::Matrix3d R_world_sensor = scan.T_world_sensor.linear();
   const Eigen::Vector3d origin = scan.T_world_sensor.translation();
   const double near_squared = params.range_min_m * params.range_min_m;
-  std::vector<Eigen::Vector3f> usable;
-  usable.reserve(scan.points.size());
+  usable.clear();
   for (const Eigen::Vector3f& point : scan.points) {
     const Eigen::Vector3d in_sensor = point.cast<double>();
     const double squared = in_sensor.squaredNorm();  // of floats: cannot overflow
@@ -70,22 +68,19 @@ std::vector<Eigen::Vector3f> OccupancyMap::Impl::usablePoints(const Scan& scan,
     else
       usable.push_back(in_world.cast<float>());
   }
-  return usable;
 }
 
-void OccupancyMap::Impl::markScan(const Eigen::Vector3f& origin,
-                                  const std::vector<Eigen::Vector3f>& points) {
-  ScanTracer tracer(origin, params.resolution_m, params.range_max_m);
-  tracer.reserve(points.size());
+void OccupancyMap::Impl::markScan(const Eigen::Vector3f& origin) {
+  ScanTracer tracer(origin, params.resolution_m, params.range_max_m, walks);
   marks.clear();
   ends.clear();
-  for (const Eigen::Vector3f& point : points) {
-    if (!params.discretize)
+  for (const Eigen::Vector3f& point : usable) {
+    if (params.discretize)
+      tracer.addOnce(point, ends, marks);
+    else
       tracer.add(point, marks);
-    else if (ends.markHit(tracer.keyOf(point)))
-      tracer.add(tracer.centreAround(point), marks);
   }
-  marker.markFree(tracer.walks(), marks);
+  marker.markFree(walks, marks);
 }
 
 OccupancyMap::OccupancyMap(const MapParams& params) {
@@ -101,16 +96,16 @@ MapUpdate OccupancyMap::insert(const Scan& scan, const AxisAlignedBox& robot_bod
   require(scan.T_world_sensor.matrix().allFinite(), "OccupancyMap: sensor pose is not finite");
   MapUpdate update;
   update.points = static_cast<int>(scan.points.size());
-  std::vector<Eigen::Vector3f> points = impl_->usablePoints(scan, robot_body, update);
+  impl_->takeUsablePoints(scan, robot_body, update);
   const Eigen::Vector3f origin = scan.T_world_sensor.translation().cast<float>();
   if (!isKeyable(scan.T_world_sensor.translation(), impl_->params.resolution_m)) {
-    update.dropped_far += static_cast<int>(points.size());
-    points.clear();
+    update.dropped_far += static_cast<int>(impl_->usable.size());
+    impl_->usable.clear();
   }
-  if (points.empty())
+  if (impl_->usable.empty())
     impl_->marks.clear();
   else
-    impl_->markScan(origin, points);
+    impl_->markScan(origin);
   impl_->blocks.apply(impl_->marks, impl_->params.resolution_m, update);
   return update;
 }

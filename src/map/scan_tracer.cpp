@@ -27,41 +27,54 @@ void setAxis(int axis, float direction, float origin, double resolution, int key
 
 }  // namespace
 
-ScanTracer::ScanTracer(const Eigen::Vector3f& origin, double resolution_m, double range_max_m)
+ScanTracer::ScanTracer(const Eigen::Vector3f& origin, double resolution_m, double range_max_m,
+                       std::vector<RayWalk>& walks)
     : origin_(origin),
       resolution_m_(resolution_m),
       inverse_resolution_(1.0 / resolution_m),
       range_max_m_(range_max_m),
-      origin_index_(indexOf(origin)) {}
+      origin_index_(indexOf(origin)),
+      walks_(walks) {
+  walks_.clear();
+}
 
 VoxelIndex ScanTracer::indexOf(const Eigen::Vector3f& point) const {
   return voxelOf(point.cast<double>(), inverse_resolution_);
 }
 
-PackedKey ScanTracer::keyOf(const Eigen::Vector3f& point) const {
-  return packIndex(indexOf(point));
-}
-
-Eigen::Vector3f ScanTracer::centreAround(const Eigen::Vector3f& point) const {
-  const VoxelIndex index = indexOf(point);
+Eigen::Vector3f ScanTracer::centreOf(const VoxelIndex& index) const {
   return ((index.cast<double>().array() + 0.5) * resolution_m_).cast<float>();
 }
 
+Eigen::Vector3f ScanTracer::centreAround(const Eigen::Vector3f& point) const {
+  return centreOf(indexOf(point));
+}
+
 void ScanTracer::add(const Eigen::Vector3f& end, ScanMarks& marks) {
+  addWithin(end, indexOf(end), marks);
+}
+
+void ScanTracer::addOnce(const Eigen::Vector3f& end, ScanMarks& ends, ScanMarks& marks) {
+  const VoxelIndex voxel = indexOf(end);
+  if (ends.markHit(packIndex(voxel))) addWithin(centreOf(voxel), voxel, marks);
+}
+
+void ScanTracer::addWithin(const Eigen::Vector3f& end, const VoxelIndex& voxel, ScanMarks& marks) {
   const octomap::point3d from = toOctomap(origin_);
   const octomap::point3d difference = toOctomap(end) - from;
   if (difference.norm() <= range_max_m_) {
-    addWalk(end);
-    marks.markHit(keyOf(end));
+    addWalk(end, voxel);
+    marks.markHit(packIndex(voxel));
     return;
   }
   const octomap::point3d cut = from + difference.normalized() * static_cast<float>(range_max_m_);
-  addWalk({cut.x(), cut.y(), cut.z()});
+  const Eigen::Vector3f cut_end(cut.x(), cut.y(), cut.z());
+  addWalk(cut_end, indexOf(cut_end));
 }
 
-void ScanTracer::addWalk(const Eigen::Vector3f& end) {
+void ScanTracer::addWalk(const Eigen::Vector3f& end, const VoxelIndex& voxel) {
   RayWalk walk;
-  walk.end = indexOf(end);
+  walk.end = voxel;
   if (walk.end == origin_index_) return;
   octomap::point3d direction = toOctomap(end) - toOctomap(origin_);
   const auto length = static_cast<float>(direction.norm());

@@ -116,7 +116,9 @@ void TemplateRays::addRay(const Eigen::Vector3d& direction, double solid_angle,
   for (;;) {
     std::size_t axis = next[0] <= next[1] ? 0 : 1;
     if (next[2] < next[axis]) axis = 2;
-    cone_volumes_.push_back(volumeWithin(std::min(next[axis], range_voxels)));
+    const double length = std::min(next[axis], range_voxels);
+    cone_volumes_.push_back(volumeWithin(length));
+    cone_lengths_.push_back(static_cast<float>(length));
     if (!(next[axis] < range_voxels)) break;
     next[axis] += spacing[axis];
     step[axis] = static_cast<std::int16_t>(step[axis] + sign[axis]);

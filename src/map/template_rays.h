@@ -62,6 +62,8 @@ class TemplateRays {
   /// For each step of a ray and for its end: the part of the ray's share of the field of view that
   /// lies nearer, in volumes of a voxel. What differs between two is the volume they hold.
   [[nodiscard]] const std::vector<float>& coneVolumes() const { return cone_volumes_; }
+  /// The lengths that these volumes belong to, in voxels.
+  [[nodiscard]] const std::vector<float>& coneLengths() const { return cone_lengths_; }
   [[nodiscard]] const Eigen::Vector3d& mount() const { return mount_m_; }
 
  private:
@@ -85,6 +87,7 @@ class TemplateRays {
   std::vector<Ray> rays_;
   std::vector<Step> steps_;
   std::vector<float> cone_volumes_;
+  std::vector<float> cone_lengths_;
   std::vector<std::uint16_t> crossings_;  ///< By ray, axis, k: steps before the offset exceeds k.
 };
 

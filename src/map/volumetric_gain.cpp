@@ -11,9 +11,6 @@
 namespace spelunk::map {
 namespace {
 
-constexpr auto kOccupiedCell = static_cast<std::uint8_t>(Occupancy::kOccupied);
-constexpr auto kUnknownCell = static_cast<std::uint8_t>(Occupancy::kUnknown);
-
 /// Steps of all sensors as distances in the cells of a window of a certain size.
 struct CellOffsets {
   VoxelIndex window_size;
@@ -80,25 +77,33 @@ int freeAmong(std::uint64_t cells, int count) {
   return static_cast<int>((kept * 0x0101010101010101u) >> 56);
 }
 
-/// Eight cells are gathered before one look at them: a branch a cell would cost more.
-/// Whether no occupied cell ended the ray.
+constexpr std::size_t kGathered = 8;
+constexpr std::uint64_t kOccupiedBits = 0x0202020202020202u;
+constexpr std::uint64_t kFreeBits = 0x0101010101010101u;
+
+/// Up to eight cells of a ray, one a byte: a branch a cell would cost more than gathering them.
+inline std::uint64_t gather(const std::uint8_t* start, const std::int32_t* offsets,
+                            std::size_t count) {
+  std::uint64_t gathered = 0;
+  if (count == kGathered)
+    for (std::size_t k = 0; k < kGathered; ++k)
+      gathered |= std::uint64_t{start[offsets[k]]} << (8 * k);
+  else
+    for (std::size_t k = 0; k < count; ++k) gathered |= std::uint64_t{start[offsets[k]]} << (8 * k);
+  return gathered;
+}
+
+/// Adds the cells up to the first occupied one; whether there was none.
 bool countRay(const std::uint8_t* start, const std::int32_t* offsets, std::size_t count,
               VolumetricGain& gain) {
-  constexpr std::uint64_t kOccupiedBits = 0x0202020202020202u;
   int seen = 0;
   int free = 0;
   bool is_open = true;
-  for (std::size_t i = 0; i < count && is_open; i += 8) {
-    const int cells = static_cast<int>(std::min<std::size_t>(8, count - i));
-    std::uint64_t gathered = 0;
-    if (cells == 8)
-      for (std::size_t k = 0; k < 8; ++k)
-        gathered |= std::uint64_t{start[offsets[i + k]]} << (8 * k);
-    else
-      for (std::size_t k = 0; i + k < count; ++k)
-        gathered |= std::uint64_t{start[offsets[i + k]]} << (8 * k);
+  for (std::size_t i = 0; i < count && is_open; i += kGathered) {
+    const std::size_t cells = std::min(kGathered, count - i);
+    const std::uint64_t gathered = gather(start, offsets + i, cells);
     const std::uint64_t occupied = gathered & kOccupiedBits;
-    const int before = occupied == 0 ? cells : __builtin_ctzll(occupied) / 8;
+    const int before = occupied == 0 ? static_cast<int>(cells) : __builtin_ctzll(occupied) / 8;
     seen += before;
     free += freeAmong(gathered, before);
     if (occupied != 0) {
@@ -111,35 +116,74 @@ bool countRay(const std::uint8_t* start, const std::int32_t* offsets, std::size_
   return is_open;
 }
 
-/// The same by the volumes of the ray's cone; `volumes` has one entry a step and one for the end.
-bool countCone(const std::uint8_t* start, const std::int32_t* offsets, std::size_t count,
-               const float* volumes, VolumetricGain& gain) {
-  for (std::size_t i = 0; i < count; ++i) {
-    const std::uint8_t cell = start[offsets[i]];
-    if (cell == kUnknownCell) {
-      ++gain.unknown_voxels;
-      gain.unknown_m3 += static_cast<double>(volumes[i + 1]) - static_cast<double>(volumes[i]);
-    } else if (cell == kOccupiedCell) {
-      ++gain.occupied_voxels;
-      return false;
-    } else {
-      ++gain.free_voxels;
-    }
-  }
-  return true;
-}
+/// The cone around a ray: one entry a step, for where the ray enters its voxel, and one for the
+/// end.
+struct Cone {
+  const float* volumes;
+  const float* lengths;
+  float depth;  ///< How far beyond the first unknown voxel the ray counts; in voxels.
+};
 
-void countRayOnce(const std::uint8_t* cells, std::size_t start, const std::int32_t* offsets,
+/// Follows one ray for the volume of its cone.
+class ConeCount {
+ public:
+  ConeCount(const Cone& cone, VolumetricGain& gain) : cone_(cone), gain_(gain) {}
+
+  /// Takes `count` steps through a window; false if the ray ended.
+  bool takeSteps(const std::uint8_t* start, const std::int32_t* offsets, std::size_t count) {
+    for (std::size_t i = 0; i < count; i += kGathered) {
+      const std::size_t cells = std::min(kGathered, count - i);
+      const std::uint64_t gathered = gather(start, offsets + i, cells);
+      if (cells == kGathered && gathered == kFreeBits) {
+        gain_.free_voxels += static_cast<int>(kGathered);
+        continue;
+      }
+      for (std::size_t k = i; k < i + cells; ++k)
+        if (!takeStep(static_cast<Occupancy>((gathered >> (8 * (k - i))) & 3), k)) return false;
+    }
+    return true;
+  }
+
+  /// Takes steps `from` up to `to`, all of them unknown.
+  void takeUnknown(std::size_t from, std::size_t to) {
+    for (std::size_t k = from; k < to; ++k)
+      if (!takeStep(Occupancy::kUnknown, k)) return;
+  }
+
+ private:
+  bool takeStep(Occupancy status, std::size_t k) {
+    if (status == Occupancy::kFree) {
+      ++gain_.free_voxels;
+      return true;
+    }
+    if (status == Occupancy::kOccupied) {
+      ++gain_.occupied_voxels;
+      return false;
+    }
+    limit_ = std::min(limit_, cone_.lengths[k] + cone_.depth);
+    if (cone_.lengths[k] >= limit_) return false;
+    ++gain_.unknown_voxels;
+    gain_.unknown_m3 +=
+        static_cast<double>(cone_.volumes[k + 1]) - static_cast<double>(cone_.volumes[k]);
+    return true;
+  }
+
+  const Cone& cone_;
+  VolumetricGain& gain_;
+  float limit_ = std::numeric_limits<float>::infinity();  ///< Once unknown space is entered.
+};
+
+void countRayOnce(const std::uint8_t* window, std::size_t start, const std::int32_t* offsets,
                   std::size_t count, SeenCells& seen, VolumetricGain& gain) {
   for (std::size_t i = 0; i < count; ++i) {
     const std::size_t at = start + static_cast<std::size_t>(static_cast<std::int64_t>(offsets[i]));
-    const std::uint8_t cell = cells[at];
+    const auto status = static_cast<Occupancy>(window[at]);
     if (seen.add(at)) {
-      gain.unknown_voxels += cell == kUnknownCell ? 1 : 0;
-      gain.occupied_voxels += cell == kOccupiedCell ? 1 : 0;
-      gain.free_voxels += cell == static_cast<std::uint8_t>(Occupancy::kFree) ? 1 : 0;
+      gain.unknown_voxels += status == Occupancy::kUnknown ? 1 : 0;
+      gain.occupied_voxels += status == Occupancy::kOccupied ? 1 : 0;
+      gain.free_voxels += status == Occupancy::kFree ? 1 : 0;
     }
-    if (cell == kOccupiedCell) return;
+    if (status == Occupancy::kOccupied) return;
   }
 }
 
@@ -154,6 +198,7 @@ struct GainEvaluator::Impl {
   double resolution_m = 0.2;
   double reach_m = 0.0;
   GainCounting counting = GainCounting::kDistinct;
+  float depth_voxels = std::numeric_limits<float>::infinity();
   std::vector<TemplateRays> sensors;
   std::mutex mutex;  ///< Guards `last_offsets` only.
   std::shared_ptr<const CellOffsets> last_offsets;
@@ -187,6 +232,7 @@ void GainEvaluator::Impl::countSensor(std::size_t sensor, const LocalWindow& win
   const TemplateRays& rays = sensors[sensor];
   const TemplateRays::Heading heading = rays.headingAt(yaw);
   const std::size_t start_cell = window.offsetOf(start - window.origin());
+  const std::uint8_t* start_cells = window.cells() + start_cell;
   std::size_t number = heading.first;
   for (std::size_t i = 0; i < heading.count; ++i) {
     const TemplateRays::Ray& ray = rays.rays()[number];
@@ -194,30 +240,31 @@ void GainEvaluator::Impl::countSensor(std::size_t sensor, const LocalWindow& win
     const std::int32_t* cells = offsets.sensors[sensor].data() + ray.begin;
     const std::size_t count = rays.stepsInside(ray, reachable);
     if (seen != nullptr) {
-      countRayOnce(window.cells().data(), start_cell, cells, count, *seen, gain);
+      countRayOnce(window.cells(), start_cell, cells, count, *seen, gain);
       continue;
     }
     const std::size_t known_count = rays.stepsInside(ray, known);
     if (counting == GainCounting::kCone) {
-      const float* volumes = rays.coneVolumes().data() + ray.cone;
-      if (!countCone(window.cells().data() + start_cell, cells, known_count, volumes, gain))
-        continue;
-      gain.unknown_voxels += static_cast<int>(count - known_count);
-      gain.unknown_m3 +=
-          static_cast<double>(volumes[count]) - static_cast<double>(volumes[known_count]);
+      const Cone cone{rays.coneVolumes().data() + ray.cone, rays.coneLengths().data() + ray.cone,
+                      depth_voxels};
+      ConeCount counted(cone, gain);
+      if (counted.takeSteps(start_cells, cells, known_count))
+        counted.takeUnknown(known_count, count);
       continue;
     }
-    if (countRay(window.cells().data() + start_cell, cells, known_count, gain))
+    if (countRay(start_cells, cells, known_count, gain))
       gain.unknown_voxels += static_cast<int>(count - known_count);
   }
 }
 
 GainEvaluator::GainEvaluator(const std::vector<SensorModel>& sensors, double resolution_m,
-                             GainCounting counting)
+                             GainCounting counting, double cone_depth_m)
     : impl_(std::make_unique<Impl>()) {
   require(std::isfinite(resolution_m) && resolution_m > 0.0, "GainEvaluator: bad resolution");
   impl_->resolution_m = resolution_m;
+  require(cone_depth_m > 0.0, "GainEvaluator: the depth of cones must be positive");
   impl_->counting = counting;
+  impl_->depth_voxels = static_cast<float>(cone_depth_m / resolution_m);
   for (const SensorModel& sensor : sensors) {
     impl_->sensors.emplace_back(sensor, resolution_m);
     impl_->reach_m =
@@ -235,7 +282,7 @@ VolumetricGain GainEvaluator::evaluate(const LocalWindow& window, const Eigen::V
   VolumetricGain gain;
   const auto offsets = impl_->offsetsFor(window.size());
   const bool is_distinct = impl_->counting == GainCounting::kDistinct;
-  SeenCells seen(is_distinct ? window.cells().size() : 0);
+  SeenCells seen(is_distinct ? window.cellCount() : 0);
   const Eigen::AngleAxisd R_world_base(yaw, Eigen::Vector3d::UnitZ());
   for (std::size_t i = 0; i < impl_->sensors.size(); ++i) {
     const Eigen::Vector3d origin = position + R_world_base * impl_->sensors[i].mount();

@@ -21,7 +21,8 @@ std::map<PackedKey, Mask> freeOf(const ScanMarks& marks) {
 }
 
 std::vector<RayWalk> walksFrom(const Eigen::Vector3f& origin, int rays, float reach, Rng& rng) {
-  ScanTracer tracer(origin, 0.15, 50.0);
+  std::vector<RayWalk> walks;
+  ScanTracer tracer(origin, 0.15, 50.0, walks);
   ScanMarks hits;
   const auto draw = [&] { return reach * static_cast<float>(2.0 * rng.uniform() - 1.0); };
   for (int i = 0; i < rays; ++i) {
@@ -30,7 +31,7 @@ std::vector<RayWalk> walksFrom(const Eigen::Vector3f& origin, int rays, float re
     if (i % 11 == 0) end = tracer.centreAround(end);
     tracer.add(end, hits);
   }
-  return tracer.walks();
+  return walks;
 }
 
 TEST(RayMarker, MarksWhatWalkingOneByOneMarks) {

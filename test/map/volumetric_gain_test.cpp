@@ -156,6 +156,28 @@ TEST(VolumetricGain, ConesHoldTheVolumeOfTheFieldOfView) {
   EXPECT_NEAR(coneGain(half_known, 5.0), 0.5 * coneGain(window, 5.0), 0.03 * coneGain(window, 5.0));
 }
 
+TEST(VolumetricGain, ConesCountSoFarBeyondTheirFirstUnknownVoxel) {
+  OccupancyMap map{MapParams{}};
+  map.markFree({{-4.0, -4.0, -4.0}, {4.0, 4.0, 4.0}});
+  const LocalWindow window(*map.freeze(), cube(12.0));
+  SensorModel line = sensorOf(360, 1, 10);
+  const auto gain = [&](double depth_m) {
+    return GainEvaluator({line}, 0.2, GainCounting::kCone, depth_m)
+        .evaluate(window, {0.1, 0.1, 0.1}, 0.0, AxisAlignedBox{});
+  };
+  const VolumetricGain all = gain(100.0);
+  EXPECT_EQ(gain(std::numeric_limits<double>::infinity()).unknown_m3, all.unknown_m3);
+  const VolumetricGain shallow = gain(1.0);
+  EXPECT_LT(shallow.unknown_m3, 0.35 * all.unknown_m3);
+  // Along an axis the free box ends 4 m away and 1 m more counts: five voxels a ray, more for
+  // slanted ones.
+  const auto rays = static_cast<int>(std::lround(360.0 / line.gain_resolution_deg)) *
+                    (static_cast<int>(std::lround(1.0 / line.gain_resolution_deg)) + 1);
+  EXPECT_GE(shallow.unknown_voxels, 5 * rays);
+  EXPECT_LE(shallow.unknown_voxels, 9 * rays);
+  EXPECT_EQ(shallow.free_voxels, all.free_voxels);
+}
+
 TEST(VolumetricGain, CameraSeesOnlyWhereItLooks) {
   OccupancyMap map{MapParams{}};
   map.markFree({{-9.0, -9.0, -3.0}, {0.0, 9.0, 3.0}});  // the half space behind is known

@@ -1,8 +1,8 @@
 #pragma once
 
 #include <cstdint>
-#include <utility>
-#include <vector>
+#include <cstdlib>
+#include <memory>
 
 #include "spelunk/common/box.h"
 #include "spelunk/common/contract.h"
@@ -10,7 +10,8 @@
 
 namespace spelunk::map {
 
-/// Dense copy of a region of the map, one byte a voxel: what all inner loops of planning read.
+/// Dense copy of a region of the map, one byte a voxel: what rays of planning read. Memory where
+/// nothing is known is never touched, so the system does not provide it.
 class LocalWindow {
  public:
   /// Copies every voxel that `region` touches. Throws Precondition if the region is empty, not
@@ -28,8 +29,7 @@ class LocalWindow {
     const unsigned z = local(2);
     const auto size = [&](int axis) { return static_cast<unsigned>(size_(axis)); };
     if (x >= size(0) || y >= size(1) || z >= size(2)) return Occupancy::kUnknown;
-    const std::size_t cell = x + row_cells_ * y + plane_cells_ * z;
-    return static_cast<Occupancy>((packed_[cell / 4] >> (2 * (cell % 4))) & 3);
+    return static_cast<Occupancy>(cells_[x + row_cells_ * y + plane_cells_ * z]);
   }
   [[nodiscard]] Occupancy at(const Eigen::Vector3d& point) const { return at(indexOf(point)); }
 
@@ -38,10 +38,9 @@ class LocalWindow {
   [[nodiscard]] double resolution() const { return resolution_m_; }
   [[nodiscard]] const VoxelIndex& origin() const { return origin_; }  ///< Index of cell (0, 0, 0).
   [[nodiscard]] const VoxelIndex& size() const { return size_; }
-  [[nodiscard]] const std::vector<std::uint8_t>& cells() const { return cells_; }  ///< x fastest.
-  /// The same with two bits a voxel, the first in the lowest bits of a byte; eight bytes beyond the
-  /// last are readable. A quarter of the memory, so more of it stays in the caches.
-  [[nodiscard]] const std::vector<std::uint8_t>& packedCells() const { return packed_; }
+  /// Occupancy as numbers, x fastest; cellCount() of them.
+  [[nodiscard]] const std::uint8_t* cells() const { return cells_.get(); }
+  [[nodiscard]] std::size_t cellCount() const { return cell_count_; }
   /// Indices of a box outside which every voxel is unknown; first > last if all are.
   [[nodiscard]] const VoxelIndex& knownFirst() const { return known_first_; }
   [[nodiscard]] const VoxelIndex& knownLast() const { return known_last_; }
@@ -55,15 +54,19 @@ class LocalWindow {
   }
 
  private:
+  struct FreeMemory {
+    void operator()(std::uint8_t* memory) const { std::free(memory); }
+  };
+
   double resolution_m_;
   VoxelIndex origin_;
   VoxelIndex size_;
   std::size_t row_cells_ = 0;    ///< Along x.
   std::size_t plane_cells_ = 0;  ///< Along x and y.
+  std::size_t cell_count_ = 0;
   VoxelIndex known_first_ = VoxelIndex::Constant(1 << 30);
   VoxelIndex known_last_ = VoxelIndex::Constant(-(1 << 30));
-  std::vector<std::uint8_t> cells_;
-  std::vector<std::uint8_t> packed_;
+  std::unique_ptr<std::uint8_t[], FreeMemory> cells_;
 };
 
 }  // namespace spelunk::map

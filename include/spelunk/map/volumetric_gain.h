@@ -1,5 +1,6 @@
 #pragma once
 
+#include <limits>
 #include <memory>
 #include <vector>
 
@@ -32,8 +33,11 @@ enum class GainCounting {
 /// Casts template rays: lists of voxel offsets from a voxel's centre, computed once per sensor.
 class GainEvaluator {
  public:
+  /// `cone_depth_m`: with kCone, how far beyond the first unknown voxel a ray counts. Rock is as
+  /// likely as a gallery behind a pocket near a wall; a wide opening counts by its many rays.
   GainEvaluator(const std::vector<SensorModel>& sensors, double resolution_m,
-                GainCounting counting = GainCounting::kDistinct);
+                GainCounting counting = GainCounting::kDistinct,
+                double cone_depth_m = std::numeric_limits<double>::infinity());
   ~GainEvaluator();
   GainEvaluator(GainEvaluator&&) noexcept;
 

@@ -2,7 +2,7 @@
 #include <cmath>
 
 #include "bench.h"
-#include "spelunk/map/inflated_window.h"
+#include "spelunk/map/configuration_space.h"
 
 namespace spelunk::benchmark {
 namespace {
@@ -18,12 +18,12 @@ struct Edge {
 
 enum class Ends { kFreeVoxels, kFreeBoxes };
 
-std::vector<Edge> edgesIn(const map::LocalWindow& window, const map::InflatedWindow& inflated,
+std::vector<Edge> edgesIn(const map::LocalWindow& window, map::ConfigurationSpace space,
                           const Eigen::Vector3d& middle, Ends ends) {
   Rng rng(ends == Ends::kFreeBoxes ? 1 : 2);
   std::vector<Edge> edges;
   const auto isGood = [&](const Eigen::Vector3d& point) {
-    return ends == Ends::kFreeBoxes ? inflated.isFree(point)
+    return ends == Ends::kFreeBoxes ? space.isFree(point)
                                     : window.at(point) == map::Occupancy::kFree;
   };
   while (edges.size() < kEdges) {
@@ -51,7 +51,7 @@ Row edgeRow(KnownMine& mine, Ends ends, const std::string& what) {
   const auto frozen = mine.map.freeze();
   const map::LocalWindow window(*frozen, boxAround(mine.middle, {40.0, 40.0, 6.0}));
   const std::vector<Edge> edges =
-      edgesIn(window, map::InflatedWindow(window, kBox), mine.middle, ends);
+      edgesIn(window, map::ConfigurationSpace(kBox, frozen), mine.middle, ends);
   std::vector<char> plain(edges.size());
   std::vector<char> ours(edges.size());
   double plain_s = 0.0;
@@ -63,9 +63,9 @@ Row edgeRow(KnownMine& mine, Ends ends, const std::string& what) {
   constexpr int kRounds = 5;
   for (int round = 0; round < kRounds; ++round)
     ours_s += secondsOf([&] {
-      const map::InflatedWindow inflated(window, kBox);
+      map::ConfigurationSpace space(kBox, frozen);
       for (std::size_t i = 0; i < edges.size(); ++i)
-        ours[i] = inflated.isSweepFree(edges[i].a, edges[i].b) ? 1 : 0;
+        ours[i] = space.isSweepFree(edges[i].a, edges[i].b) ? 1 : 0;
     });
   const auto free = std::count(plain.begin(), plain.end(), 1);
   const double to_us = 1e6 / static_cast<double>(edges.size());

@@ -4,7 +4,7 @@
 #include "bench.h"
 #include "map/template_rays.h"
 #include "spelunk/graph/shortest_paths.h"
-#include "spelunk/map/inflated_window.h"
+#include "spelunk/map/configuration_space.h"
 #include "spelunk/map/volumetric_gain.h"
 
 namespace spelunk::benchmark {
@@ -49,13 +49,13 @@ Plan makePlan(const std::vector<Eigen::Vector3d>& vertices, IsEdgeFree&& isEdgeF
 
 /// Free boxes around the middle, as near together as makes 5000 edges of at most 3 m.
 std::vector<Eigen::Vector3d> sampleVertices(const map::LocalWindow& window,
-                                            const map::InflatedWindow& inflated,
+                                            map::ConfigurationSpace space,
                                             const Eigen::Vector3d& middle) {
   Rng rng(9);
   std::vector<Eigen::Vector3d> vertices;
   while (vertices.size() < kVertices) {
     const Eigen::Vector3d point = freePoint(window, rng, middle, {15.0, 15.0, 2.0});
-    if (inflated.isFree(point)) vertices.push_back(point);
+    if (space.isFree(point)) vertices.push_back(point);
   }
   return vertices;
 }
@@ -74,15 +74,13 @@ int unknownInLists(const octomap::OcTree& tree, const map::TemplateRays& rays,
 }
 
 Plan planOurs(KnownMine& mine, const map::GainEvaluator& evaluator, const AxisAlignedBox& region,
-              const AxisAlignedBox& sampled, const std::vector<Eigen::Vector3d>& vertices) {
+              const std::vector<Eigen::Vector3d>& vertices) {
   const auto frozen = mine.map.freeze();
   const map::LocalWindow window(*frozen, region);
-  const map::InflatedWindow inflated(map::LocalWindow(*frozen, sampled), kBox);
+  map::ConfigurationSpace space(kBox, frozen);
   return makePlan(
       vertices,
-      [&](const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
-        return inflated.isSweepFree(a, b);
-      },
+      [&](const Eigen::Vector3d& a, const Eigen::Vector3d& b) { return space.isSweepFree(a, b); },
       [&](const Eigen::Vector3d& at) {
         return evaluator.evaluate(window, at, 0.0, AxisAlignedBox{}).unknown_voxels;
       });
@@ -107,17 +105,16 @@ std::vector<Row> planRows(KnownMine& mine) {
   const double reach = 2.0 * evaluator.reach();
   const AxisAlignedBox region =
       boxAround(mine.middle, {30.0 + reach, 30.0 + reach, 4.0 + 0.27 * reach});
-  const AxisAlignedBox sampled = boxAround(mine.middle, {32.0, 32.0, 5.0});
   const map::LocalWindow window(*mine.map.freeze(), region);
   const std::vector<Eigen::Vector3d> vertices =
-      sampleVertices(window, map::InflatedWindow(window, kBox), mine.middle);
+      sampleVertices(window, map::ConfigurationSpace(kBox, mine.map.freeze()), mine.middle);
   Plan ours;
   Plan plain;
   const double plain_s = secondsOf([&] { plain = planPlainly(mine, sensor, vertices); });
   constexpr int kRounds = 5;
   double ours_s = 0.0;
   for (int round = 0; round < kRounds; ++round)
-    ours_s += secondsOf([&] { ours = planOurs(mine, evaluator, region, sampled, vertices); });
+    ours_s += secondsOf([&] { ours = planOurs(mine, evaluator, region, vertices); });
   bool is_equal = ours.edges == plain.edges && ours.distances == plain.distances;
   const map::TemplateRays rays(sensor, mine.params.resolution_m);
   for (std::size_t i = 0; i < vertices.size(); ++i)

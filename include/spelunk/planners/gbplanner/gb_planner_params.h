@@ -26,6 +26,7 @@ struct GbPlannerParams {
   double path_spacing_m = 1.0;
   bool count_once = false;
   bool count_cones = false;
+  double cone_depth_m = 1000.0;
   double closing_height_m = 1.4;
   double growth_m = 0.2;
   Eigen::Vector3d safety_margin_m{0.1, 0.1, 0.3};
@@ -74,6 +75,8 @@ struct GbPlannerParams {
           "count the gain of a path at its best vertex instead of the sum over all");
     field("count_cones", count_cones, Bounds{},
           "a ray counts the volume of its cone instead of its voxels");
+    field("cone_depth_m", cone_depth_m, Bounds{0.1, 1000.0},
+          "a cone counts up to here beyond its first unknown voxel");
     field("closing_height_m", closing_height_m, Bounds{0.0, 10.0},
           "gaps between sensor rows this high hold nothing to explore");
     field("growth_m", growth_m, Bounds{0.0, 5.0},
