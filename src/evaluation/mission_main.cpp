@@ -1,9 +1,12 @@
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <iostream>
+#include <optional>
 #include <sstream>
 
 #include "spelunk/common/contract.h"
@@ -35,6 +38,7 @@ struct Options {
   double time_limit_s = 900.0;
   std::string out = "mission_out";
   std::string start;
+  std::vector<std::string> go_to;
   std::vector<std::string> assignments;
 };
 
@@ -83,24 +87,49 @@ void listParams(const Options& options) {
     printTable(spelunk::describe("sensor." + sensor.name, sensor));
   printTable(spelunk::describe("map", loaded.config.map));
   printTable(spelunk::describe("mission", loaded.config.mission));
+  printTable(spelunk::describe("navigation", loaded.config.navigation));
   printTable(spelunk::describe("terrain", loaded.config.terrain));
   printTable(spelunk::planners::describePlanner(options.planner, loaded.config.tree));
   printTable(spelunk::describe("sim", loaded.sim));
   printTable(spelunk::describe("delays", loaded.delays));
 }
 
-spelunk::Pose poseFrom(const std::string& text) {
+/// Numbers between commas; none if there is anything else or too few or too many of them.
+std::optional<std::vector<double>> numbersIn(const std::string& text, std::size_t count) {
   std::stringstream stream(text);
   std::vector<double> values;
   for (std::string item; std::getline(stream, item, ',');) {
     char* end = nullptr;
     values.push_back(std::strtod(item.c_str(), &end));
-    if (item.empty() || *end != '\0' || !std::isfinite(values.back()))
-      throw OutsideError("--start '" + text + "': write it as x,y,z,yaw in metres and radians");
+    if (item.empty() || *end != '\0' || !std::isfinite(values.back())) return std::nullopt;
   }
-  if (values.size() != 4)
+  return values.size() == count ? std::optional(values) : std::nullopt;
+}
+
+spelunk::Pose poseFrom(const std::string& text) {
+  const auto values = numbersIn(text, 4);
+  if (!values)
     throw OutsideError("--start '" + text + "': write it as x,y,z,yaw in metres and radians");
-  return {{values[0], values[1], values[2]}, values[3]};
+  return {{values->at(0), values->at(1), values->at(2)}, values->at(3)};
+}
+
+/// "x,y,z" or "x,y,z,method"; the method wins over navigation.method.
+spelunk::evaluation::GoToLeg legFrom(const std::string& text,
+                                     const spelunk::navigation::NavigationParams& params) {
+  spelunk::evaluation::GoToLeg leg{Eigen::Vector3d::Zero(), params};
+  std::string point = text;
+  const std::size_t last = text.rfind(',');
+  if (last != std::string::npos && std::count(text.begin(), text.end(), ',') == 3) {
+    point = text.substr(0, last);
+    leg.navigation.method = text.substr(last + 1);
+  }
+  const auto values = numbersIn(point, 3);
+  if (!values || !leg.navigation.problems().empty())
+    throw OutsideError(
+        "--go-to '" + text +
+        "': write it as x,y,z in metres, or x,y,z,method with adaptive, plain or plain_short");
+  leg.target = {values->at(0), values->at(1), values->at(2)};
+  return leg;
 }
 
 spelunk::Pose startOf(const Options& options, const spelunk::sim::WorldMesh& mesh) {
@@ -162,6 +191,8 @@ int fly(const Options& options, bool quiet) {
   setup.seed = options.seed;
   setup.time_limit_s = options.time_limit_s;
   setup.delays = loaded.delays;
+  for (const std::string& leg : options.go_to)
+    setup.legs.push_back(legFrom(leg, loaded.config.navigation));
   spelunk::evaluation::MissionRun run(setup, mesh, *loaded.planner);
   const auto record =
       quiet ? run.fly() : run.fly([](const spelunk::evaluation::Progress& p) { show(p); });
@@ -194,6 +225,10 @@ int main(int argc, char** argv) {
       ->check(CLI::Range(1.0, 1e6));
   app.add_option("--out", options.out, "folder for the results");
   app.add_option("--start", options.start, "x,y,z,yaw; wins over the world's own");
+  app.add_option("--go-to", options.go_to,
+                 "x,y,z: fly there instead of exploring; several: one after the other; "
+                 "x,y,z,method says how (adaptive, plain, plain_short)")
+      ->take_all();
   app.add_option("--set", options.assignments, "section.name=value, any parameter")->take_all();
   app.add_flag("--list-params", list_params, "print all parameters and leave");
   app.add_flag("--quiet", quiet, "no progress line");

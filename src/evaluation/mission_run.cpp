@@ -15,6 +15,7 @@ constexpr int kWarmUpTicks = 5;  // scans before the mission is started
 constexpr double kClearanceLimit_m = 5.0;
 constexpr double kRateWindow_s = 10.0;
 constexpr double kOutOfEndurance_s = 0.05;
+constexpr double kStandstill_mps = 0.1;
 
 }  // namespace
 
@@ -35,6 +36,9 @@ struct MissionRun::Impl {
 
   RunRecord fly(const std::function<void(const Progress&)>& show);
   void warmUp();
+  void begin();
+  void nextLeg();
+  void noteLeg();
   void step();
   void sense();
   void plan();
@@ -44,7 +48,11 @@ struct MissionRun::Impl {
   void follow(const std::optional<mission::Command>& command);
   void addTimelineRow();
   [[nodiscard]] bool isOver() const;
+  [[nodiscard]] bool hasReachedAllLegs() const;
+  [[nodiscard]] bool isHolding() const;
+  [[nodiscard]] bool areLegsDone() const;
   void finish();
+  void finishLegs();
   [[nodiscard]] double now() const { return static_cast<double>(ticks) / kTicksPerSecond; }
   [[nodiscard]] double remaining() const;
   [[nodiscard]] Progress progress() const;
@@ -61,6 +69,7 @@ struct MissionRun::Impl {
   std::int64_t ticks = 0;
   double started_s = 0.0;
   Eigen::Vector3d last_position = Eigen::Vector3d::Zero();
+  bool is_underway = false;  ///< To the point of the newest leg.
 };
 
 double MissionRun::Impl::remaining() const {
@@ -134,6 +143,10 @@ void MissionRun::Impl::step() {
   follow(mission.tick(now()));
   plan();
   takeOver();
+  if (is_underway && mission.status().go_to.outcome != mission::GoToOutcome::kUnderway) noteLeg();
+  const bool goes_on = !record.legs.empty() && !is_underway &&
+                       record.legs.size() < setup.legs.size() && hasReachedAllLegs();
+  if (goes_on && isHolding()) nextLeg();
   if (ticks % kTicksPerSecond == 0) addTimelineRow();
 }
 
@@ -148,8 +161,47 @@ void MissionRun::Impl::warmUp() {
   if (const auto answer = mission.setZones(setup.zones); !answer.accepted)
     throw OutsideError("the no-go zones are refused: " + answer.reason);
   started_s = now();
+}
+
+void MissionRun::Impl::begin() {
+  if (!setup.legs.empty()) return nextLeg();
   if (const auto answer = mission.start(); !answer.accepted)
     throw OutsideError("the mission does not start: " + answer.reason);
+}
+
+/// Sends the robot to the next point. A refusal ends the run as a leg that was not reached.
+void MissionRun::Impl::nextLeg() {
+  const GoToLeg& leg = setup.legs[record.legs.size()];
+  GoToRecord begun;
+  begun.leg = leg;
+  begun.path_length_m = -record.path_length_m;
+  mission::Answer given = mission.mayGoTo(leg.target);
+  navigation::NavigationAnswer answer;
+  if (given.accepted) {
+    auto query = mission.goToQuery(leg.target);
+    query->rng = Rng(setup.seed).fork("go_to/" + std::to_string(record.legs.size()));
+    answer = navigation::Navigator(leg.navigation).plan(*query);
+    given = mission.goTo(leg.navigation, *query, answer);
+    begun.status = mission.status().go_to;
+  }
+  if (!given.accepted) {
+    begun.status.outcome = mission::GoToOutcome::kUnreachable;
+    begun.status.reason = given.reason;
+    begun.status.nearest_reachable = answer.nearest_reachable;
+  }
+  record.legs.push_back(begun);
+  is_underway = given.accepted;
+  if (!is_underway) noteLeg();
+}
+
+/// Closes the newest leg.
+void MissionRun::Impl::noteLeg() {
+  GoToRecord& leg = record.legs.back();
+  if (is_underway) leg.status = mission.status().go_to;
+  is_underway = false;
+  leg.path_length_m += record.path_length_m;
+  leg.execution_s = leg.status.ended_s - leg.status.started_s;
+  leg.final_distance_m = (simulator.trueState().pose.position - leg.leg.target).norm();
 }
 
 void MissionRun::Impl::addTimelineRow() {
@@ -173,8 +225,25 @@ Progress MissionRun::Impl::progress() const {
   return shown;
 }
 
+bool MissionRun::Impl::hasReachedAllLegs() const {
+  return std::all_of(record.legs.begin(), record.legs.end(), [](const GoToRecord& leg) {
+    return leg.status.outcome == mission::GoToOutcome::kReached;
+  });
+}
+
+/// At a standstill: the next leg may begin.
+bool MissionRun::Impl::isHolding() const {
+  return simulator.trueState().velocity.norm() < kStandstill_mps;
+}
+
+bool MissionRun::Impl::areLegsDone() const {
+  if (setup.legs.empty() || is_underway) return false;
+  if (mission.status().state == mission::MissionState::kHome) return false;
+  return !hasReachedAllLegs() || record.legs.size() == setup.legs.size();
+}
+
 bool MissionRun::Impl::isOver() const {
-  return mission.status().state == mission::MissionState::kDone ||
+  return areLegsDone() || mission.status().state == mission::MissionState::kDone ||
          simulator.walkerCount().falls > 0 || remaining() <= kOutOfEndurance_s;
 }
 
@@ -193,15 +262,26 @@ void MissionRun::Impl::finish() {
   record.remaining_at_home_s = record.returned_home ? remaining() : 0.0;
   record.ended_as_it_may = record.returned_home && remaining() > 0.0;
   record.remaining_targets = mission.remaining();
+  if (is_underway) noteLeg();
+  if (!setup.legs.empty() && !record.returned_home) return finishLegs();
   record.outcome = record.returned_home ? status.end_reason
                                         : (record.falls > 0 ? "fell " : "stranded ") +
                                               std::to_string(distance(pose, setup.start)) +
                                               " m from home: " + status.reason;
 }
 
+void MissionRun::Impl::finishLegs() {
+  const mission::GoToStatus& last = record.legs.back().status;
+  const bool reached = hasReachedAllLegs() && record.legs.size() == setup.legs.size();
+  record.ended_as_it_may = reached && record.falls == 0 && remaining() > kOutOfEndurance_s;
+  record.outcome =
+      reached ? "reached" : std::string(mission::toText(last.outcome)) + ": " + last.reason;
+}
+
 RunRecord MissionRun::Impl::fly(const std::function<void(const Progress&)>& show) {
   const Stopwatch watch;
   warmUp();
+  begin();
   while (!isOver()) {
     step();
     if (show && ticks % kTicksPerSecond == 0) show(progress());

@@ -94,6 +94,28 @@ Json remainingOf(const std::vector<planners::RemainingTarget>& targets) {
   return list;
 }
 
+Json jsonOf(const Eigen::Vector3d& point) {
+  return {rounded(point.x()), rounded(point.y()), rounded(point.z())};
+}
+
+Json jsonOf(const GoToRecord& record) {
+  const mission::GoToStatus& status = record.status;
+  Json json{{"target_m", jsonOf(record.leg.target)},
+            {"method", record.leg.navigation.method},
+            {"outcome", mission::toText(status.outcome)},
+            {"reason", status.reason},
+            {"planning_time_s", rounded(status.planning_s)},
+            {"execution_time_s", rounded(record.execution_s)},
+            {"replans", status.replans_obstacle + status.replans_deviation + status.replans_unseen},
+            {"replans_obstacle", status.replans_obstacle},
+            {"replans_deviation", status.replans_deviation},
+            {"replans_unseen", status.replans_unseen},
+            {"path_length_m", rounded(record.path_length_m)},
+            {"final_distance_m", rounded(record.final_distance_m)}};
+  if (status.nearest_reachable) json["nearest_reachable_m"] = jsonOf(*status.nearest_reachable);
+  return json;
+}
+
 std::vector<double> planTimes(const RunRecord& record) {
   std::vector<double> times;
   for (const PlanRow& row : record.plans) times.push_back(row.wall_ms);
@@ -126,6 +148,7 @@ std::string summaryText(const ReportHeader& header, const RunRecord& record) {
             {"map_update_ms", jsonOf(spreadOf(record.map_update_ms))},
             {"peak_memory_mb", rounded(peakMemoryMb())}};
   json["remaining_targets"] = remainingOf(record.remaining_targets);
+  for (const GoToRecord& leg : record.legs) json["legs"].push_back(jsonOf(leg));
   return json.dump(2) + "\n";
 }
 

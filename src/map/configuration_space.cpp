@@ -297,6 +297,8 @@ Occupancy ConfigurationSpace::sweep(const Eigen::Vector3d& a, const Eigen::Vecto
 
 const Eigen::Vector3d& ConfigurationSpace::boxSize() const { return impl_->box_size; }
 
+Passable ConfigurationSpace::passable() const { return impl_->passable; }
+
 double ConfigurationSpace::resolution() const {
   require(impl_->map != nullptr, kNoMap);
   return impl_->map->resolution();

@@ -25,9 +25,29 @@ const char* toText(MissionState state) {
   return "unknown";
 }
 
+const char* toText(GoToOutcome outcome) {
+  switch (outcome) {
+    case GoToOutcome::kNone:
+      return "none";
+    case GoToOutcome::kUnderway:
+      return "underway";
+    case GoToOutcome::kReached:
+      return "reached";
+    case GoToOutcome::kUnreachable:
+      return "unreachable";
+    case GoToOutcome::kAborted:
+      return "aborted";
+  }
+  return "unknown";
+}
+
 PlanOutcome run(const PlanJob& job, planners::ExplorationPlanner& planner) {
   PlanOutcome outcome;
   outcome.number = job.number;
+  if (job.go_to) {
+    outcome.go_to = navigation::Navigator(job.go_to->params).plan(job.go_to->query);
+    return outcome;
+  }
   planners::PlanRequest request = job.request;
   if (job.explore) {
     outcome.plan = planner.plan(request);
@@ -55,7 +75,18 @@ Answer Mission::emergencyStop() { return impl_->emergencyStop(); }
 Answer Mission::setBounds(const AxisAlignedBox& bounds) { return impl_->setBounds(bounds); }
 Answer Mission::setZones(std::vector<NoGoZone> zones) { return impl_->setZones(std::move(zones)); }
 
-Answer Mission::goTo(const Path& path) { return impl_->goTo(path); }
+Answer Mission::mayGoTo(const Eigen::Vector3d& point) {
+  const std::string problem = impl_->goToProblem(point);
+  return {problem.empty(), problem};
+}
+std::optional<navigation::NavigationQuery> Mission::goToQuery(const Eigen::Vector3d& point) {
+  return impl_->goToQuery(point);
+}
+Answer Mission::goTo(const navigation::NavigationParams& params,
+                     const navigation::NavigationQuery& query,
+                     const navigation::NavigationAnswer& answer) {
+  return impl_->goTo(params, query, answer);
+}
 std::optional<planners::PlanRequest> Mission::requestHere(double now_s) {
   return impl_->requestHere(now_s);
 }

@@ -43,6 +43,7 @@ Mission::Impl::Impl(const MissionParams& mission_params, const RobotModel& robot
 std::optional<Command> Mission::Impl::tick(double now_s) {
   now = now_s;
   updateRemaining();
+  noteAbortedGoTo();
   if (!isFlying()) return takeCommand();
   checkInputs();
   checkDeviation();
@@ -104,6 +105,9 @@ void Mission::Impl::hold(const std::string& why, planners::PathOutcome outcome) 
   if (active && active->kind() != planners::PathKind::kHome) {
     last_outcome = outcome;
     last_reason = why;
+    if (go_to)
+      go_to->cause = outcome == planners::PathOutcome::kBlocked ? ReplanCause::kObstacle
+                                                                : ReplanCause::kDeviation;
   }
   active.reset();
   route.reset();

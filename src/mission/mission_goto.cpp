@@ -5,46 +5,111 @@ namespace spelunk::mission {
 namespace {
 
 constexpr double kStartGap_m = 0.5;
+constexpr double kLookPeriod_s = 0.5;
+constexpr double kLookAround_s = 1.0;  // at the end of what is known, before giving up on the path
+constexpr double kEnd_m = 1e-6;
 
 }  // namespace
 
-std::string Mission::Impl::goToProblem(const Path& path) {
+std::optional<navigation::NavigationQuery> Mission::Impl::goToQuery(const Eigen::Vector3d& point) {
+  if (!input.latest()) return std::nullopt;
+  navigation::NavigationQuery query;
+  query.map = map.freeze();
+  query.start = input.latest()->pose;
+  query.goal = {point + Eigen::Vector3d(0.0, 0.0, robot.box_lift_m), query.start.yaw};
+  query.box = robot.box_m;
+  query.bounds = limits;
+  query.zones = no_go;
+  return query;
+}
+
+std::string Mission::Impl::goToProblem(const Eigen::Vector3d& point) {
+  if (!point.allFinite()) return "the point holds a number that is not finite";
   if (state == MissionState::kEStop) return "emergency stop is on: start releases it";
   if (isFlying()) return "the mission is running: pause it first";
   const std::string problem = startProblem();
   if (!problem.empty()) return problem;
   if (!isAtRest()) return "the robot still moves: wait until it holds";
-  if (path.size() < 2) return "the path is empty";
-  if (distance(path.front(), input.latest()->pose) > kStartGap_m)
-    return "the path does not begin where the robot is";
-  const auto check = navigation::checkPath(spaceOf(robot.box_m), path, no_go, limits);
-  if (!check.isFree())
-    return std::string("the path is not clear: ") + navigation::toText(check.fault);
+  const Eigen::Vector3d& here = input.latest()->pose.position;
+  const Eigen::Vector3d home = home_graph ? home_graph->home().position : here;
+  const double there_s = (point - here).norm() / robot.speed_max_mps;
+  const double home_s = (point - home).norm() / robot.speed_max_mps;
+  if (guard.marginAfter(there_s, home_s) < 0.0)
+    return "the point is too far: not even the straight way there and home fits the endurance";
   return "";
 }
 
-Answer Mission::Impl::goTo(const Path& base_path) {
-  Path path = base_path;
-  for (Pose& pose : path) pose.position.z() += robot.box_lift_m;
-  std::string problem = goToProblem(path);
-  if (problem.empty()) {
-    takeOff();
-    refreshWayHome();
-    if (affordableLength(path, std::nullopt) < lengthOf(path))
-      problem = "no way home from its end fits the endurance";
-  }
+Answer Mission::Impl::goTo(const navigation::NavigationParams& navigation_params,
+                           const navigation::NavigationQuery& query,
+                           const navigation::NavigationAnswer& answer) {
+  const Eigen::Vector3d lift(0.0, 0.0, robot.box_lift_m);
+  const Eigen::Vector3d point = query.goal.position - lift;
+  const std::string problem = goToProblem(point);
   if (!problem.empty()) return {false, problem};
+  if (answer.status != navigation::NavigationStatus::kOk) return {false, answer.reason};
+  if (distance(query.start, input.latest()->pose) > kStartGap_m)
+    return {false, "the path does not begin where the robot is"};
+  takeOff();
+  refreshWayHome();
   goal = Goal::kGoTo;
-  fly(path, planners::PathKind::kReposition, robot.box_m);
-  status.reason = "flying to the point that was asked for";
-  return {true, status.reason};
+  go_to.emplace(robot.box_m);
+  go_to->job = {navigation_params, query};
+  status.go_to = {};
+  status.go_to.outcome = GoToOutcome::kUnderway;
+  status.go_to.target = point;
+  status.go_to.started_s = now;
+  installPlan(answer);
+  if (status.go_to.outcome == GoToOutcome::kUnderway)
+    return {true, "flying to the point that was asked for"};
+  return {false, status.go_to.reason};
 }
 
+/// The pseudo-code of execution (Akbari 2021, section IV): fly what is known of the plan, take up
+/// more as it is seen, stop and plan anew from here where that is not possible.
 void Mission::Impl::stepGoTo() {
-  if (goal != Goal::kGoTo || active) return;
+  if (goal != Goal::kGoTo || running || pending || !inputs_ok) return;
+  if (active) return lookAhead();
+  const bool is_flown = go_to->taken_up_m >= lengthOf(go_to->plan) - kEnd_m;
+  if (go_to->cause == ReplanCause::kNone && is_flown)
+    return endGoTo(GoToOutcome::kReached, "reached the point that was asked for");
+  if (!isAtRest()) return;
+  if (go_to->cause == ReplanCause::kNone) {
+    takeUpMore();
+    const bool may_still_see = now < go_to->stopped_s + kLookAround_s;
+    if (active || goal != Goal::kGoTo || may_still_see) return;
+    if (go_to->cause == ReplanCause::kNone) noteUnseen();
+  }
+  replan();
+}
+
+void Mission::Impl::lookAhead() {
+  go_to->stopped_s = active->endTime();
+  if (now < go_to->next_look_s) return;
+  go_to->next_look_s = now + kLookPeriod_s;
+  if (go_to->is_suspect && isPlanBlocked()) go_to->cause = ReplanCause::kObstacle;
+  go_to->is_suspect = false;
+  if (go_to->cause == ReplanCause::kNone) takeUpMore();
+  if (!active || go_to->cause != ReplanCause::kObstacle) return;
+  ++status.replans_obstacle;
+  hold("new obstacle on the way ahead: stopped, planning anew", planners::PathOutcome::kBlocked);
+}
+
+void Mission::Impl::endGoTo(GoToOutcome outcome, const std::string& why) {
+  status.go_to.outcome = outcome;
+  status.go_to.reason = why;
+  status.go_to.ended_s = now;
   goal = Goal::kNone;
-  if (state != MissionState::kHold)
-    hold("reached the point that was asked for", planners::PathOutcome::kReached);
+  go_to.reset();
+  hold(why, outcome == GoToOutcome::kReached ? planners::PathOutcome::kReached
+                                             : planners::PathOutcome::kBlocked);
+}
+
+void Mission::Impl::noteAbortedGoTo() {
+  if (!go_to || goal == Goal::kGoTo) return;
+  go_to.reset();
+  status.go_to.outcome = GoToOutcome::kAborted;
+  status.go_to.reason = status.reason;
+  status.go_to.ended_s = now;
 }
 
 std::optional<planners::PlanRequest> Mission::Impl::requestHere(double now_s) {

@@ -94,11 +94,12 @@ bool Mission::Impl::isAtHome() const {
   return distance(input.latest()->pose, home_graph->home()) <= params.home_radius_m;
 }
 
-map::ConfigurationSpace& Mission::Impl::spaceOf(const Eigen::Vector3d& box) {
+map::ConfigurationSpace& Mission::Impl::spaceOf(const Eigen::Vector3d& box,
+                                                map::Passable passable) {
   auto found = std::find_if(spaces.begin(), spaces.end(), [&](const map::ConfigurationSpace& each) {
-    return each.boxSize() == box;
+    return each.boxSize() == box && each.passable() == passable;
   });
-  if (found == spaces.end()) found = spaces.emplace(spaces.end(), box);
+  if (found == spaces.end()) found = spaces.emplace(spaces.end(), box, passable);
   found->use(map.freeze());
   return *found;
 }

@@ -42,6 +42,28 @@ struct KnownRoute {
   navigation::PathMonitor monitor;
 };
 
+/// Why a new way to a point is needed.
+enum class ReplanCause { kNone, kObstacle, kDeviation };
+
+/// The flight to a point that was asked for.
+struct GoToTask {
+  explicit GoToTask(const Eigen::Vector3d& box) : open(box, map::Passable::kNotOccupied) {}
+
+  NavigationJob job;  ///< Of the newest plan.
+  Path plan;          ///< From where the robot was then to the point, unknown space included.
+  std::optional<navigation::PathMonitor> monitor;
+  double safe_distance_m = 0.0;  ///< That the plan keeps; rounded corners are to keep it too.
+  double taken_up_m = 0.0;       ///< The plan's length up to which it was checked and flown.
+  ReplanCause cause = ReplanCause::kNone;
+  std::vector<NoGoZone> unseen;  ///< Places on earlier plans that did not come into view.
+  Eigen::Vector3d replanned_at = Eigen::Vector3d::Zero();
+  int fruitless = 0;             ///< Replans since the robot last got somewhere.
+  map::ConfigurationSpace open;  ///< Unknown space included.
+  bool is_suspect = false;       ///< A voxel on the plan became occupied since the last look.
+  double next_look_s = 0.0;
+  double stopped_s = 0.0;  ///< When the last leg ended.
+};
+
 struct WayHome {
   Path path;
   double travel_s = 0.0;        ///< Not pessimistic.
@@ -49,7 +71,8 @@ struct WayHome {
 };
 
 /// State and steps of the mission. Steps that belong together share a .cpp:
-/// mission_inputs, mission_goto, mission_cycle, mission_ground, mission_plans, mission_home.
+/// mission_inputs, mission_goto, mission_goto_plans, mission_cycle, mission_ground, mission_plans,
+/// mission_home.
 constexpr double kBodyShare = 0.5;  // of the safety box: returns from there are the robot itself
 
 struct Mission::Impl {
@@ -77,10 +100,23 @@ struct Mission::Impl {
 
   void takeOff();
 
-  // --- Paths from outside (mission_goto.cpp).
-  Answer goTo(const Path& path);
-  [[nodiscard]] std::string goToProblem(const Path& path);
+  // --- Points from outside (mission_goto.cpp, mission_goto_plans.cpp).
+  [[nodiscard]] std::optional<navigation::NavigationQuery> goToQuery(const Eigen::Vector3d& point);
+  Answer goTo(const navigation::NavigationParams& params, const navigation::NavigationQuery& query,
+              const navigation::NavigationAnswer& answer);
+  [[nodiscard]] std::string goToProblem(const Eigen::Vector3d& point);
   void stepGoTo();
+  void endGoTo(GoToOutcome outcome, const std::string& why);
+  void noteAbortedGoTo();
+  void lookAhead();
+  void takeUpMore();
+  [[nodiscard]] bool isPlanBlocked();
+  [[nodiscard]] std::string flyPlan(double from_m, double to_m);
+  void replan();
+  void noteUnseen();
+  void askForWay();
+  void acceptGoTo(const navigation::NavigationAnswer& answer);
+  void installPlan(const navigation::NavigationAnswer& answer);
   [[nodiscard]] std::optional<planners::PlanRequest> requestHere(double now_s);
 
   // --- The cycle (mission_cycle.cpp).
@@ -134,7 +170,12 @@ struct Mission::Impl {
   [[nodiscard]] double affordableLength(const Path& path, const std::optional<Path>& home_path);
   [[nodiscard]] Trajectory smoothest(const Path& path, const navigation::MotionStart& start,
                                      const Eigen::Vector3d& box);
-  void fly(const Path& path, planners::PathKind kind, const Eigen::Vector3d& box);
+  void fly(const Path& path, planners::PathKind kind, const Eigen::Vector3d& box) {
+    fly(path, kind, box, box);
+  }
+  /// Corners are rounded as far as `corner_box`, which may be larger, stays free.
+  void fly(const Path& path, planners::PathKind kind, const Eigen::Vector3d& box,
+           const Eigen::Vector3d& corner_box);
 
   // --- The way home (mission_home.cpp).
   void noteRoute(const Path& rest, const planners::PlanResult& home);
@@ -146,7 +187,8 @@ struct Mission::Impl {
   void launchHome();
   [[nodiscard]] Path fromMotion(const WayHome& way) const;
   /// The configuration space of a box in the map as it is now.
-  [[nodiscard]] map::ConfigurationSpace& spaceOf(const Eigen::Vector3d& box);
+  [[nodiscard]] map::ConfigurationSpace& spaceOf(
+      const Eigen::Vector3d& box, map::Passable passable = map::Passable::kKnownFree);
   [[nodiscard]] bool isWayClear(const Path& path, const Eigen::Vector3d& box);
   /// The same for the robot's own trail, where marked ground has been walked on.
   [[nodiscard]] bool isTrailClear(const Path& path, const Eigen::Vector3d& box);
@@ -164,6 +206,7 @@ struct Mission::Impl {
   std::optional<HomeGraph> home_graph;
   std::optional<PathExecution> active;
   std::optional<KnownRoute> route;
+  std::optional<GoToTask> go_to;
 
   // --- State.
   MissionState state = MissionState::kIdle;

@@ -81,6 +81,8 @@ map::MapUpdate Mission::Impl::takeScan(const Scan& scan) {
   if (update.newly_occupied.empty()) return update;
   if (home_graph) home_graph->noteOccupied(update.newly_occupied);
   if (active) active->noteOccupied(update.newly_occupied, now);
+  if (go_to && go_to->monitor && go_to->monitor->firstHit(update.newly_occupied))
+    go_to->is_suspect = true;
   if (route && route->monitor.firstHit(update.newly_occupied)) {
     route.reset();
     next_refresh_s = now;

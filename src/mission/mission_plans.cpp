@@ -108,6 +108,8 @@ std::optional<Command> Mission::Impl::accept(const PlanOutcome& outcome, double 
     if (goal == Goal::kExplore) acceptExploration(job, outcome);
   } else if (goal == Goal::kHome) {
     acceptWayHome(job, outcome.home);
+  } else if (goal == Goal::kGoTo) {
+    acceptGoTo(outcome.go_to);
   }
   return takeCommand();
 }
@@ -230,7 +232,8 @@ Trajectory Mission::Impl::smoothest(const Path& path, const navigation::MotionSt
   return navigation::timed(path, limits_of_robot, start, kLeastTolerance_m);
 }
 
-void Mission::Impl::fly(const Path& path, planners::PathKind kind, const Eigen::Vector3d& box) {
+void Mission::Impl::fly(const Path& path, planners::PathKind kind, const Eigen::Vector3d& box,
+                        const Eigen::Vector3d& corner_box) {
   navigation::MotionStart start{now, Eigen::Vector3d::Zero(), 0.0};
   Path whole = path;
   if (active) {
@@ -240,7 +243,7 @@ void Mission::Impl::fly(const Path& path, planners::PathKind kind, const Eigen::
   } else {
     whole.front() = input.latest()->pose;
   }
-  Trajectory trajectory = smoothest(whole, start, box);
+  Trajectory trajectory = smoothest(whole, start, corner_box);
   active.emplace(whole, trajectory, kind, box, map.params().resolution_m);
   command = Command{std::move(whole), std::move(trajectory), kind};
   next_refresh_s = now;

@@ -57,8 +57,9 @@ RunConfig loadRunConfig(const RunChoice& choice) {
   const std::string dir = choice.share_dir + "/config";
   addNamed(config.tree, dir + "/robots", "robot", choice.robot);
   const bool is_legged = config.tree.textOf("robot.kind", "aerial") == "legged";
-  for (const std::string& name : {std::string("map"), std::string("mission"), std::string("sim"),
-                                  std::string("terrain"), "planners/" + choice.planner}) {
+  for (const std::string& name :
+       {std::string("map"), std::string("mission"), std::string("navigation"), std::string("sim"),
+        std::string("terrain"), "planners/" + choice.planner}) {
     addIfPresent(config.tree, dir + "/" + name + ".yaml");
     if (is_legged) addIfPresent(config.tree, dir + "/" + name + "_legged.yaml");
   }
@@ -66,7 +67,14 @@ RunConfig loadRunConfig(const RunChoice& choice) {
     config.tree.setAssignment(assignment, choice.assignments_origin);
   config.robot = loadRobot(config.tree, choice.robot, dir);
   config.tree.read("map", config.map);
+  for (const SensorModel& sensor : config.robot.sensor_models)
+    if (sensor.reports_misses && sensor.range_max_m <= config.map.range_max_m)
+      config.tree.addProblem("sensor." + sensor.name +
+                             ".reports_misses: map.range_max_m must be below the sensor's "
+                             "range_max_m, or its misses become obstacles");
   config.tree.read("mission", config.mission);
+  config.tree.read("navigation", config.navigation);
+  for (const std::string& problem : config.navigation.problems()) config.tree.addProblem(problem);
   config.tree.read("terrain", config.terrain);
   for (const std::string& problem : config.terrain.problems()) config.tree.addProblem(problem);
   config.planner = choice.planner;

@@ -87,6 +87,7 @@ PlannerSetup loadPlannerSetup(const ::ros::NodeHandle& private_node) {
   config.tree.requireClean();
   setup.robot = config.robot;
   setup.mission = config.mission;
+  setup.navigation = config.navigation;
   setup.map = config.map;
   setup.terrain = config.terrain;
   return setup;

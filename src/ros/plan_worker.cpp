@@ -15,6 +15,7 @@ mission::PlanOutcome failed(const mission::PlanJob& job, const std::string& text
   outcome.plan.status = planners::PlanStatus::kNoPath;
   outcome.plan.reason = "the planner failed: " + text;
   outcome.home = outcome.plan;
+  outcome.go_to.reason = outcome.plan.reason;
   outcome.home.kind = planners::PathKind::kHome;
   return outcome;
 }

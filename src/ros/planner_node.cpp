@@ -27,8 +27,8 @@ PlannerNode::PlannerNode(const ::ros::NodeHandle& node, const ::ros::NodeHandle&
       outputs_(node_, params_.world_frame),
       worker_(planner_, [this](const mission::PlanOutcome& outcome) { takeOver(outcome); }),
       inputs_(node_, params_, setup.cloud, core_),
-      services_(private_node, params_.world_frame, static_cast<std::uint64_t>(params_.seed), core_,
-                planner_),
+      services_(private_node, params_.world_frame, static_cast<std::uint64_t>(params_.seed),
+                setup.navigation, core_, planner_),
       tick_timer_(node_.createTimer(::ros::Duration(1.0 / params_.tick_rate_hz),
                                     [this](const ::ros::TimerEvent&) { tick(); })),
       view_spinner_(1, &view_queue_) {

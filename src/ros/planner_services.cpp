@@ -4,7 +4,7 @@
 #include <optional>
 #include <utility>
 
-#include "spelunk/navigation/point_to_point.h"
+#include "spelunk/navigation/navigator.h"
 #include "spelunk/ros/convert.h"
 
 namespace spelunk::bridge {
@@ -40,8 +40,10 @@ bool answering(Response& response, std::string Response::*text, F&& callback) {
 
 PlannerServices::PlannerServices(const ::ros::NodeHandle& private_node,
                                  const std::string& world_frame, std::uint64_t seed,
-                                 GuardedCore& core, GuardedPlanner& planner)
+                                 const navigation::NavigationParams& navigation, GuardedCore& core,
+                                 GuardedPlanner& planner)
     : world_frame_(world_frame),
+      navigation_(navigation),
       rng_(seed),
       core_(core),
       planner_(planner),
@@ -130,36 +132,30 @@ bool PlannerServices::plan(Plan::Request& /*request*/, Plan::Response& response)
 
 bool PlannerServices::goTo(GoTo::Request& request, GoTo::Response& response) {
   return answering(response, &GoTo::Response::reason, [&] {
-    const auto here = core_.with([](MissionCore& core) {
-      return core.mission.requestHere(missionTime(core, ::ros::Time::now()));
-    });
-    if (!here) {
-      response.reason = kNoOdometry;
+    const Eigen::Vector3d target(request.target.x, request.target.y, request.target.z);
+    const mission::Answer may =
+        core_.with([&](MissionCore& core) { return core.mission.mayGoTo(target); });
+    if (!may.accepted) {
+      response.reason = may.reason;
       return;
     }
-    navigation::PointToPointRequest wanted;
-    wanted.map = here->map;
-    wanted.start = here->pose;
-    wanted.goal.position = {request.target.x, request.target.y, request.target.z};
-    wanted.goal.yaw = here->pose.yaw;
-    if (!wanted.goal.position.allFinite()) {
-      response.reason = "the target holds a number that is not finite";
-      return;
-    }
-    wanted.box = core_.with([](MissionCore& core) { return core.mission.robot().box_m; });
-    wanted.bounds = here->bounds;
-    wanted.zones = here->zones;
-    wanted.rng = nextRng("go_to");
-    const auto found = navigation::planPointToPoint(wanted);
-    if (found.status != navigation::PointToPointStatus::kOk) {
-      response.reason = found.reason;
-      return;
-    }
-    const mission::Answer given =
-        core_.with([&](MissionCore& core) { return core.mission.goTo(found.path); });
+    auto query = core_.with([&](MissionCore& core) { return core.mission.goToQuery(target); });
+    query->rng = nextRng("go_to");
+    query->time_limit_s = navigation_.planning_time_s;
+    const auto found = navigation::Navigator(navigation_).plan(*query);
+    const mission::Answer given = core_.with(
+        [&](MissionCore& core) { return core.mission.goTo(navigation_, *query, found); });
     response.success = given.accepted;
     response.reason = given.reason;
-    if (given.accepted) response.path = bridge::toMsg(found.path, world_frame_, ::ros::Time::now());
+    const Eigen::Vector3d lift = query->goal.position - target;  // of the box above the base
+    if (found.nearest_reachable) {
+      const Eigen::Vector3d nearest = *found.nearest_reachable - lift;
+      response.reason += "; the nearest point that can be reached is " + toText(nearest);
+    }
+    if (!given.accepted) return;
+    Path base_path = found.path;
+    for (Pose& pose : base_path) pose.position -= lift;
+    response.path = bridge::toMsg(base_path, world_frame_, ::ros::Time::now());
   });
 }
 

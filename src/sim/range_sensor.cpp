@@ -71,7 +71,8 @@ std::vector<Eigen::Vector3f> RangeSensor::disturbedPoints(const std::vector<floa
       range = range_min + (range - range_min) * uniformFrom(hashed(scan_key, 4 * k + 2));
       is_return = true;
     }
-    if (dropout > 0.0F && uniformFrom(hashed(scan_key, 4 * k + 3)) < dropout) is_return = false;
+    if (dropout > 0.0F && uniformFrom(hashed(scan_key, 4 * k + 3)) < dropout) continue;
+    if (!is_return && model_.reports_misses) points.emplace_back(range_max * (*directions_)[k]);
     if (!is_return) continue;
     if (noise > 0.0F) range += noise * normalFrom(hashed(scan_key, 4 * k));
     if (range >= range_min && range < range_max) points.emplace_back(range * (*directions_)[k]);

@@ -9,7 +9,8 @@
 namespace spelunk::sim {
 namespace {
 
-constexpr const char* kKinds = "drifts, rooms, cave, ramps, rough, room or maze";
+constexpr const char* kKinds =
+    "drifts, rooms, cave, ramps, rough, room, maze, shafts, walls or levels";
 
 struct CommonParams {
   std::string kind;
@@ -121,6 +122,12 @@ WorldPlan planWorld(const std::string& description_path) {
     finish<RoomParams>(tree, description_path, plan);
   } else if (common.kind == "maze") {
     finish<MazeParams>(tree, description_path, plan);
+  } else if (common.kind == "shafts") {
+    finish<ShaftsParams>(tree, description_path, plan);
+  } else if (common.kind == "walls") {
+    finish<WallsParams>(tree, description_path, plan);
+  } else if (common.kind == "levels") {
+    finish<LevelsParams>(tree, description_path, plan);
   } else {
     throw OutsideError("world description '" + description_path + "': kind = '" + common.kind +
                        "' is not known; write kind: " + kKinds);

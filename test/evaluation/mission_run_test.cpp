@@ -92,6 +92,50 @@ TEST(RunReport, SummaryHasEveryPromisedKey) {
             "t_s,explored_m3,distance_m,x_m,y_m,z_m,yaw_rad,remaining_s,state\n");
 }
 
+GoToLeg legTo(const Eigen::Vector3d& target) {
+  GoToLeg leg;
+  leg.target = target;
+  return leg;
+}
+
+TEST(MissionRun, FliesToEachPointInTurnAndEndsAsReached) {
+  RunSetup setup = roomSetup();
+  setup.legs = {legTo({8.0, 1.0, 1.5}), legTo({-10.0, 0.0, 1.5})};  // the first one is unseen yet
+  const RunRecord record = flyRoom(setup);
+  EXPECT_EQ(record.outcome, "reached");
+  EXPECT_TRUE(record.ended_as_it_may);
+  EXPECT_EQ(record.collisions, 0);
+  ASSERT_EQ(record.legs.size(), 2U);
+  for (const GoToRecord& leg : record.legs) {
+    EXPECT_EQ(leg.status.outcome, mission::GoToOutcome::kReached) << leg.status.reason;
+    EXPECT_LT(leg.final_distance_m, 0.3);
+    EXPECT_GT(leg.path_length_m, 17.5);
+    EXPECT_GT(leg.execution_s, leg.path_length_m / setup.robot.speed_max_mps);
+    EXPECT_GT(leg.status.planning_s, 0.0);
+  }
+  const mission::GoToStatus& home = record.legs[1].status;
+  EXPECT_EQ(home.replans_obstacle + home.replans_deviation + home.replans_unseen, 0);
+  EXPECT_NEAR(record.legs[0].path_length_m + record.legs[1].path_length_m, record.path_length_m,
+              1.0);
+  const test::TemporaryFolder folder;
+  writeReport(folder.at(""), ReportHeader{}, record);
+  const auto json = nlohmann::json::parse(textOf(folder.at("summary.json")));
+  ASSERT_EQ(json["legs"].size(), 2U);
+  EXPECT_EQ(json["legs"][1]["outcome"], "reached");
+  EXPECT_EQ(json["legs"][1]["replans"], 0);
+}
+
+TEST(MissionRun, PointInTheRockEndsAtOnceWithTheReason) {
+  RunSetup setup = roomSetup();
+  setup.legs = {legTo({-10.0, 3.95, 1.5}), legTo({8.0, 1.0, 1.5})};
+  const RunRecord record = flyRoom(setup);
+  EXPECT_FALSE(record.ended_as_it_may);
+  EXPECT_EQ(record.outcome.find("unreachable: "), 0U) << record.outcome;
+  EXPECT_NE(record.outcome.find("obstacle"), std::string::npos) << record.outcome;
+  EXPECT_EQ(record.legs.size(), 1U);
+  EXPECT_LT(record.mission_time_s, 2.0);
+}
+
 TEST(RunReport, FolderThatCannotBeWrittenIsNamed) {
   const test::TemporaryFolder folder;
   folder.write("file", "x");

@@ -32,6 +32,7 @@ TEST(RunConfig, FewParametersNeedALook) {
   };
   append(describe("map", config.map));
   append(describe("mission", config.mission));
+  append(describe("navigation", config.navigation));
   append(planners::describePlanner("gbplanner", config.tree));
   const auto is_for_users = [](const ParamDescription& line) {
     return line.audience == Audience::kUser;
@@ -58,6 +59,33 @@ TEST(RunConfig, UnknownRobotListsKnownOnes) {
   } catch (const OutsideError& error) {
     EXPECT_NE(std::string(error.what()).find("aerial"), std::string::npos);
   }
+}
+
+/// All problems of a choice in one text (sections that others read are among them).
+std::string problemsOf(const RunChoice& choice) {
+  try {
+    loadRunConfig(choice).tree.requireClean();
+  } catch (const OutsideError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(RunConfig, SensorThatReportsMissesNeedsAMapOfShorterRange) {
+  RunChoice choice = shipped();
+  choice.robot = "inspector";
+  EXPECT_NE(problemsOf(choice).find("reports_misses"), std::string::npos);
+  choice.assignments = {"map.range_max_m=4"};
+  EXPECT_EQ(problemsOf(choice).find("reports_misses"), std::string::npos);
+  const RunConfig config = loadRunConfig(choice);
+  EXPECT_EQ(config.robot.speed_max_mps, 0.25);
+  EXPECT_TRUE(config.robot.sensor_models.at(0).reports_misses);
+}
+
+TEST(RunConfig, UnknownNavigationMethodIsAProblem) {
+  RunChoice choice = shipped();
+  choice.assignments = {"navigation.method=astar"};
+  EXPECT_NE(problemsOf(choice).find("plain_short"), std::string::npos);
 }
 
 TEST(RunConfig, AssignmentWithoutValueIsNamed) {

@@ -111,6 +111,21 @@ TEST(RangeSensor, LosesTheGivenShareOfReturns) {
   EXPECT_EQ(scan.true_ranges.size(), 28800U);
 }
 
+TEST(RangeSensor, ReportsMissesAtItsFullRangeIfItDoesSo) {
+  const MeshScene scene(test::boxRoom({60, 2, 4}));
+  SensorModel model = exactLidar();
+  model.range_max_m = 10.0;
+  model.dropout_probability = 0.25;
+  const std::size_t returns = scanFrom(model, 0.0, at({0, 0, 2}), scene).scan.points.size();
+  model.reports_misses = true;
+  const SimulatedScan scan = scanFrom(model, 0.0, at({0, 0, 2}), scene);
+  const auto misses = std::count_if(scan.scan.points.begin(), scan.scan.points.end(),
+                                    [](const Vector3f& p) { return p.norm() > 9.9999F; });
+  EXPECT_GT(misses, 1000);
+  EXPECT_EQ(scan.scan.points.size(), returns + static_cast<std::size_t>(misses));
+  EXPECT_LT(scan.scan.points.size(), 28800U) << "a lost return is no miss";
+}
+
 TEST(RangeSensor, DustReturnsEarly) {
   const MeshScene scene(test::boxRoom({10, 8, 4}));
   const SimulatedScan clear = scanFrom(exactLidar(), 0.0, at({0, 0, 2}), scene);

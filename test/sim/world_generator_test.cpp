@@ -139,7 +139,14 @@ INSTANTIATE_TEST_SUITE_P(
                     Expectation{"ramps", 18405832082591299727ULL, 4000, 9000},
                     Expectation{"rough", 124908318093271421ULL, 1800, 3500},
                     Expectation{"room", 18286154345773577104ULL, 450, 600},
-                    Expectation{"tiny_maze", 3206369154968430270ULL, 800, 1200}),
+                    Expectation{"tiny_maze", 3206369154968430270ULL, 800, 1200},
+                    Expectation{"room_obs_15", 2893324876787881347ULL, 4500, 5000},
+                    Expectation{"room_obs_25", 17622540169993171957ULL, 4400, 5000},
+                    Expectation{"room_obs_35", 8261428018733445703ULL, 4300, 5000},
+                    Expectation{"mine_96", 6123888148727260855ULL, 8000, 30000},
+                    Expectation{"cave_1", 14871390092210456813ULL, 3000, 9000},
+                    Expectation{"cave_2", 17158461898159028352ULL, 4000, 12000},
+                    Expectation{"mine_225", 5490122944109688925ULL, 40000, 90000}),
     [](const auto& instance) { return std::string(instance.param.name); });
 
 class ShippedMine : public testing::TestWithParam<const char*> {};
@@ -171,7 +178,8 @@ TEST_P(ShippedMine, IsNowhereNarrowerThanPlanned) {
 }
 
 INSTANTIATE_TEST_SUITE_P(All, ShippedMine,
-                         testing::Values("long_wall", "room_and_pillar", "cave", "ramps", "rough"),
+                         testing::Values("long_wall", "room_and_pillar", "cave", "ramps", "rough",
+                                         "mine_96", "cave_1", "cave_2"),
                          [](const auto& instance) { return std::string(instance.param); });
 
 /// Whether the way to a hit leads through solid rock.
@@ -275,6 +283,57 @@ TEST(Ramps, AreWalkable) {
   EXPECT_EQ(walked.trunk_contacts, 0);
   EXPECT_LT((walked.end.head<2>() - corners.back()).norm(), 0.2);
   EXPECT_NEAR(walked.end.z(), -6.0 + 0.5, 0.2);
+}
+
+TEST(TwoShaft, JoinsItsShaftsByAPassageThatNoStraightLineFollows) {
+  const World& at = world("two_shaft");
+  EXPECT_EQ(test::openEdges(at.mesh), 0);
+  for (const Hall& shaft : at.plan.halls) {
+    EXPECT_EQ(shaft.size, Eigen::Vector2d(2.5, 2.5));
+    for (double z = 0.4; z < 3.6; z += 0.1)
+      EXPECT_TRUE(at.fits(shaft.floor + Eigen::Vector3d(0, 0, z))) << z;
+  }
+  EXPECT_EQ(reachedShare(world("two_shaft")), 0.0) << "the start is high in the shaft";
+  for (const Eigen::Vector3d& middle : skeletonOf(at.plan)) EXPECT_TRUE(at.fits(middle));
+  const Eigen::Vector3d start = at.mesh.start->position;
+  for (const double z : {1.0, 3.2}) {
+    const Eigen::Vector3d way = at.plan.halls[1].floor + Eigen::Vector3d(0, 0, z) - start;
+    EXPECT_TRUE(at.scene.castRay(start, way.normalized(), way.norm()).has_value());
+  }
+}
+
+class ObstacleRoom : public testing::TestWithParam<int> {};
+
+TEST_P(ObstacleRoom, HasItsWallsAndGapsThatLetTheRobotThrough) {
+  const World& at = world("room_obs_" + std::to_string(GetParam()));
+  const std::vector<Pillar>& walls = at.plan.pillars;
+  ASSERT_EQ(walls.size(), static_cast<std::size_t>(GetParam()));
+  for (std::size_t i = 0; i < walls.size(); ++i) {
+    for (std::size_t k = 0; k < i; ++k) {
+      const Eigen::Vector2d gap =
+          (walls[i].centre - walls[k].centre).cwiseAbs() - 0.5 * (walls[i].size + walls[k].size);
+      EXPECT_GE(gap.maxCoeff(), 2.0);
+    }
+    const Eigen::Vector3d middle(walls[i].centre.x(), walls[i].centre.y(), 2.0);
+    EXPECT_FALSE(at.fits(middle));
+    const double length = walls[i].size.maxCoeff();
+    EXPECT_GE(length, 2.5);
+    EXPECT_LE(length, 8.0);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(All, ObstacleRoom, testing::Values(15, 25, 35));
+
+TEST(Mine225, ItsShaftsJoinAllLevels) {
+  const World& at = world("mine_225");
+  const Eigen::Vector3d size = at.mesh.bounds().size();
+  EXPECT_NEAR(size.x(), 225.0, 4.0);
+  EXPECT_NEAR(size.y(), 117.0, 3.0);
+  EXPECT_NEAR(size.z(), 62.0, 2.0);
+  ASSERT_EQ(at.plan.halls.size(), 6U);
+  for (const Hall& shaft : at.plan.halls)
+    for (double z = 0.8; z < 18.0 + 1.2; z += 0.2)
+      EXPECT_TRUE(at.fits(shaft.floor + Eigen::Vector3d(0, 0, z))) << z;
 }
 
 TEST(Rough, ItsStepsAndHolesAreThere) {
@@ -382,7 +441,9 @@ TEST(GenerateWorld, NamesEveryProblemOfADescriptionAndTheKnownNames) {
 TEST(GenerateWorld, RefusesAnUnknownKindAndListsTheKinds) {
   const std::string complaint = complaintOn("kind: volcano\n");
   EXPECT_NE(complaint.find("volcano"), std::string::npos);
-  EXPECT_NE(complaint.find("drifts, rooms, cave, ramps, rough, room or maze"), std::string::npos);
+  EXPECT_NE(
+      complaint.find("drifts, rooms, cave, ramps, rough, room, maze, shafts, walls or levels"),
+      std::string::npos);
 }
 
 TEST(GenerateWorld, RefusesAMinimumAboveItsMaximum) {
@@ -394,6 +455,12 @@ TEST(GenerateWorld, RefusesAMinimumAboveItsMaximum) {
 TEST(GenerateWorld, RefusesAStartInRock) {
   const std::string complaint = complaintOn("kind: room\nstart: {x_m: 30, y_m: 0}\n");
   EXPECT_NE(complaint.find("start.x_m"), std::string::npos) << complaint;
+}
+
+TEST(GenerateWorld, RefusesMoreWallsThanFit) {
+  const std::string complaint =
+      complaintOn("kind: walls\nwalls: 90\nsize_x_m: 20\nsize_y_m: 20\nstart: {x_m: 3, y_m: 3}\n");
+  EXPECT_NE(complaint.find("of 90 walls fit"), std::string::npos) << complaint;
 }
 
 TEST(GenerateWorld, NamesAMissingDescription) {

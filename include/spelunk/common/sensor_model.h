@@ -24,6 +24,7 @@ struct SensorModel {
   double rate_hz = 10.0;
   double range_noise_stddev_m = 0.01;
   double dropout_probability = 0.0;
+  bool reports_misses = false;  ///< Else a ray that meets nothing in range gives no point.
   Eigen::Vector3d mount_m = Eigen::Vector3d::Zero();  ///< Sensor origin in the base frame.
   double mount_yaw_deg = 0.0;
   double mount_pitch_deg = 0.0;  ///< Positive looks down.
@@ -43,6 +44,8 @@ struct SensorModel {
     field("rate_hz", rate_hz, Bounds{0.1, 100.0}, "scans a second");
     field("range_noise_stddev_m", range_noise_stddev_m, Bounds{0.0, 1.0}, "noise of a range");
     field("dropout_probability", dropout_probability, Bounds{0.0, 1.0}, "share of lost returns");
+    field("reports_misses", reports_misses, Bounds{},
+          "rays without return give a point at full range; map.range_max_m must be shorter");
     field("mount_m", mount_m, Bounds{-5.0, 5.0}, "sensor origin in the base frame");
     field("mount_yaw_deg", mount_yaw_deg, Bounds{-180.0, 180.0}, "turn about base z");
     field("mount_pitch_deg", mount_pitch_deg, Bounds{-90.0, 90.0}, "then about y; + looks down");

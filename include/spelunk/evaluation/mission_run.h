@@ -34,6 +34,21 @@ struct PlanRow {
   std::string verdict;   ///< "accepted" or the mission's reason.
 };
 
+/// A point the robot is sent to, and how it is to find its way there.
+struct GoToLeg {
+  Eigen::Vector3d target = Eigen::Vector3d::Zero();
+  navigation::NavigationParams navigation;
+};
+
+/// What became of one such leg.
+struct GoToRecord {
+  GoToLeg leg;
+  mission::GoToStatus status;
+  double path_length_m = 0.0;  ///< True path flown.
+  double execution_s = 0.0;    ///< From its begin to its end, plans included as they take no time.
+  double final_distance_m = 0.0;  ///< To the target, true.
+};
+
 /// What a whole mission brought.
 struct RunRecord {
   std::string outcome;  ///< Why it ended.
@@ -54,6 +69,7 @@ struct RunRecord {
   double remaining_at_home_s = 0.0;
   std::vector<TimelineRow> timeline;
   std::vector<PlanRow> plans;
+  std::vector<GoToRecord> legs;  ///< Empty for a mission that explored.
   std::vector<double> map_update_ms;
   std::vector<planners::RemainingTarget> remaining_targets;
 };
@@ -94,6 +110,7 @@ struct RunSetup {
   std::uint64_t seed = 1;
   double time_limit_s = 900.0;  ///< Endurance by time; the battery may say less.
   Delays delays;
+  std::vector<GoToLeg> legs;  ///< If there are some: fly to them, one after the other, and end.
 };
 
 /// A whole mission in lockstep: simulator, mission and planner advance by tenths of a second of
@@ -106,8 +123,8 @@ class MissionRun {
              planners::ExplorationPlanner& planner);
   ~MissionRun();
 
-  /// Flies until the mission is done, out of endurance, or has held at one place for good. Calls
-  /// `show` about every simulated second if given.
+  /// Flies until the mission is done (or the last leg reached, or one not), out of endurance, or
+  /// has held at one place for good. Calls `show` about every simulated second if given.
   [[nodiscard]] RunRecord fly(const std::function<void(const Progress&)>& show = {});
 
   /// The mission, for its map and trail after the flight.

@@ -44,6 +44,7 @@ class ConfigurationSpace {
   [[nodiscard]] bool isSweepFree(const Eigen::Vector3d& a, const Eigen::Vector3d& b);
 
   [[nodiscard]] const Eigen::Vector3d& boxSize() const;
+  [[nodiscard]] Passable passable() const;
   [[nodiscard]] double resolution() const;  ///< Of the map in use, metres.
   /// Chunks inflated so far: what queries have cost.
   [[nodiscard]] std::size_t inflations() const;

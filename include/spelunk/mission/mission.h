@@ -9,6 +9,7 @@
 #include "spelunk/common/robot_model.h"
 #include "spelunk/common/trajectory.h"
 #include "spelunk/map/occupancy_map.h"
+#include "spelunk/navigation/navigator.h"
 #include "spelunk/planners/exploration_planner.h"
 #include "spelunk/terrain/terrain_map.h"
 
@@ -64,22 +65,48 @@ struct Command {
   planners::PathKind kind = planners::PathKind::kLocal;
 };
 
+/// A path to a point that was asked for, to be planned by navigation.
+struct NavigationJob {
+  navigation::NavigationParams params;
+  navigation::NavigationQuery query;
+};
+
 /// A plan to be computed, on data that nobody changes: run it in any thread, or at once.
 struct PlanJob {
   planners::PlanRequest request;
-  bool explore = true;  ///< false: only the way home is asked for.
+  bool explore = true;                 ///< false: only the way home is asked for.
+  std::optional<NavigationJob> go_to;  ///< If set, nothing else is asked for.
   std::uint64_t number = 0;
 };
 
 /// What a job brought: the plan, and the way home from its end (or from the start if there is
-/// none).
+/// none); or navigation's answer.
 struct PlanOutcome {
   std::uint64_t number = 0;
   planners::PlanResult plan;
   planners::PlanResult home;
+  navigation::NavigationAnswer go_to;
 };
 
 [[nodiscard]] PlanOutcome run(const PlanJob& job, planners::ExplorationPlanner& planner);
+
+enum class GoToOutcome { kNone, kUnderway, kReached, kUnreachable, kAborted };
+[[nodiscard]] const char* toText(GoToOutcome outcome);  ///< "none", "underway", "reached", ...
+
+/// The flight to a point that was asked for. A replan is a new plan because the path in execution
+/// cannot be flown on; taking up more of the same path as it comes into view is not counted.
+struct GoToStatus {
+  GoToOutcome outcome = GoToOutcome::kNone;
+  std::string reason;  ///< Of its end; one sentence.
+  Eigen::Vector3d target = Eigen::Vector3d::Zero();
+  std::optional<Eigen::Vector3d> nearest_reachable;  ///< Only with kUnreachable, where known.
+  int replans_obstacle = 0;   ///< A newly seen obstacle lies on the path, anywhere ahead.
+  int replans_deviation = 0;  ///< The robot left the path, or its inputs failed meanwhile.
+  int replans_unseen = 0;     ///< What comes next on the path cannot be seen from its known end.
+  double planning_s = 0.0;    ///< Wall time of all plans, the first one included.
+  double started_s = 0.0;     ///< Mission time.
+  double ended_s = 0.0;
+};
 
 /// Everything a status line needs.
 struct MissionStatus {
@@ -98,6 +125,7 @@ struct MissionStatus {
   int replans_deviation = 0;
   int refused_paths = 0;
   int zones_marked = 0;  ///< No-go zones made around untraversable ground.
+  GoToStatus go_to;
   planners::PlanStats last_stats;
   double last_map_update_ms = 0.0;
 };
@@ -134,9 +162,19 @@ class Mission {
   Answer setBounds(const AxisAlignedBox& bounds);
   Answer setZones(std::vector<NoGoZone> zones);
 
-  /// Flies a path that was planned outside, from about here; only while the mission does not run.
-  /// Checked like any other path, way home from its end included; holds at its end.
-  Answer goTo(const Path& path);
+  /// Whether the robot may be sent to a point now, as far as that can be told without a plan: it
+  /// stands ready, and even the straight way there and home fits the endurance.
+  [[nodiscard]] Answer mayGoTo(const Eigen::Vector3d& point);
+  /// What navigation is to be asked for a way from here to a point (world frame, where the robot's
+  /// base is to be); none before the first good odometry. The caller sets `rng`.
+  [[nodiscard]] std::optional<navigation::NavigationQuery> goToQuery(const Eigen::Vector3d& point);
+  /// Flies to the goal of a query, beginning with the path it was answered by; only if mayGoTo()
+  /// and only if the answer holds a path. Only what lies in known free space is flown, checked like
+  /// any other path, way home included. More of the path is taken up as it comes into view; where
+  /// the path turns out blocked, or the robot has left it, the mission stops and asks for a new one
+  /// by a job. Holds at the end; see MissionStatus::go_to.
+  Answer goTo(const navigation::NavigationParams& params, const navigation::NavigationQuery& query,
+              const navigation::NavigationAnswer& answer);
   /// A plan's request from where the robot is, for plans that are only looked at; none before the
   /// first good odometry.
   [[nodiscard]] std::optional<planners::PlanRequest> requestHere(double now_s);

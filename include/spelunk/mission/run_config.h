@@ -31,6 +31,7 @@ struct RunConfig {
   RobotModel robot;
   map::MapParams map;
   MissionParams mission;
+  navigation::NavigationParams navigation;
   terrain::TerrainParams terrain;  ///< Used by robots with legs.
   std::string planner;
 };

@@ -22,6 +22,7 @@ struct PlannerSetup {
   CloudParams cloud;
   RobotModel robot;
   mission::MissionParams mission;
+  navigation::NavigationParams navigation;
   map::MapParams map;
   terrain::TerrainParams terrain;
   std::unique_ptr<planners::ExplorationPlanner> planner;

@@ -27,7 +27,8 @@ class PlannerServices {
  public:
   /// `core` and `planner` must outlive this. `seed`: of ~plan's and ~go_to's random draws.
   PlannerServices(const ::ros::NodeHandle& private_node, const std::string& world_frame,
-                  std::uint64_t seed, GuardedCore& core, GuardedPlanner& planner);
+                  std::uint64_t seed, const navigation::NavigationParams& navigation,
+                  GuardedCore& core, GuardedPlanner& planner);
   ~PlannerServices();
 
  private:
@@ -48,6 +49,7 @@ class PlannerServices {
   [[nodiscard]] Rng nextRng(const char* service);
 
   std::string world_frame_;
+  navigation::NavigationParams navigation_;
   Rng rng_;
   int calls_ = 0;
   GuardedCore& core_;

@@ -219,6 +219,92 @@ struct MazeParams {
   }
 };
 
+/// Kind "shafts": two upright shafts joined by a passage at their feet that goes aside, along and
+/// back, so that no straight line leads from one to the other. The start belongs into the first, at
+/// the origin.
+struct ShaftsParams {
+  double shaft_m = 2.5;
+  double height_m = 4.0;
+  double distance_m = 9.0;
+  double bend_m = 3.2;
+  double passage_width_m = 2.2;
+  double passage_height_m = 2.0;
+
+  template <class Visitor>
+  void visit(Visitor&& field) {
+    field("shaft_m", shaft_m, Bounds{1.8, 20.0}, "edge of both shafts");
+    field("height_m", height_m, Bounds{2.0, 100.0}, "height of both shafts");
+    field("distance_m", distance_m, Bounds{5.0, 200.0}, "from shaft to shaft along x");
+    field("bend_m", bend_m, Bounds{0.0, 50.0}, "the passage goes so far aside");
+    field("passage_width_m", passage_width_m, Bounds{1.8, 20.0}, "width of the passage");
+    field("passage_height_m", passage_height_m, Bounds{1.6, 20.0}, "height of the passage");
+  }
+};
+
+/// Kind "walls": one room with walls from floor to roof, along x and y in turn, that leave gaps on
+/// all sides. Its corner with the least x and y is the origin; the start's surroundings stay free.
+struct WallsParams {
+  double size_x_m = 40.0;
+  double size_y_m = 30.0;
+  double height_m = 4.0;
+  int walls = 15;
+  double length_min_m = 3.0;
+  double length_max_m = 8.0;
+  double thickness_m = 0.5;
+  double gap_m = 2.2;
+
+  template <class Visitor>
+  void visit(Visitor&& field) {
+    field("size_x_m", size_x_m, Bounds{8.0, 200.0}, "extent along x");
+    field("size_y_m", size_y_m, Bounds{8.0, 200.0}, "extent along y");
+    field("height_m", height_m, Bounds{1.6, 50.0}, "floor to roof");
+    field("walls", walls, Bounds{0, 1000}, "how many");
+    field("length_min_m", length_min_m, Bounds{0.5, 50.0}, "shortest wall");
+    field("length_max_m", length_max_m, Bounds{0.5, 50.0}, "longest wall");
+    field("thickness_m", thickness_m, Bounds{0.3, 5.0}, "of the walls");
+    field("gap_m", gap_m, Bounds{1.0, 20.0}, "least between walls, and to the sides");
+  }
+};
+
+/// Kind "levels": a mine of several levels, one above the other, each a network of winding drifts
+/// between jittered crossings; neighbouring levels are joined by upright shafts at crossings.
+struct LevelsParams {
+  int levels = 4;
+  double level_drop_m = 18.0;
+  int columns = 6;
+  int rows = 4;
+  double pitch_x_m = 42.0;
+  double pitch_y_m = 34.0;
+  double width_min_m = 2.4;
+  double width_max_m = 5.5;
+  double height_min_m = 2.4;
+  double height_max_m = 5.0;
+  double wander_m = 4.0;
+  double relief_m = 4.0;
+  double loop_share = 0.4;
+  double shaft_m = 4.5;
+  int shafts = 2;
+
+  template <class Visitor>
+  void visit(Visitor&& field) {
+    field("levels", levels, Bounds{1, 20}, "how many");
+    field("level_drop_m", level_drop_m, Bounds{6.0, 100.0}, "from level to level");
+    field("columns", columns, Bounds{2, 60}, "crossings along x");
+    field("rows", rows, Bounds{2, 60}, "crossings along y");
+    field("pitch_x_m", pitch_x_m, Bounds{8.0, 200.0}, "from crossing to crossing along x");
+    field("pitch_y_m", pitch_y_m, Bounds{8.0, 200.0}, "from crossing to crossing along y");
+    field("width_min_m", width_min_m, Bounds{1.8, 20.0}, "narrowest drift");
+    field("width_max_m", width_max_m, Bounds{1.8, 20.0}, "widest drift");
+    field("height_min_m", height_min_m, Bounds{1.6, 20.0}, "lowest roof");
+    field("height_max_m", height_max_m, Bounds{1.6, 20.0}, "highest roof");
+    field("wander_m", wander_m, Bounds{0.0, 20.0}, "drifts leave their straight line so far");
+    field("relief_m", relief_m, Bounds{0.0, 20.0}, "floors rise and fall so much");
+    field("loop_share", loop_share, Bounds{0.0, 1.0}, "of the possible loops, so many are open");
+    field("shaft_m", shaft_m, Bounds{2.0, 20.0}, "edge of the shafts");
+    field("shafts", shafts, Bounds{1, 100}, "from each level to the next");
+  }
+};
+
 /// Add the spaces of a kind to a plan whose seed and start are set; the floor is near z = 0 at the
 /// start.
 void layOut(const DriftsParams& params, WorldPlan& plan);
@@ -228,5 +314,8 @@ void layOut(const RampsParams& params, WorldPlan& plan);
 void layOut(const RoughParams& params, WorldPlan& plan);
 void layOut(const RoomParams& params, WorldPlan& plan);
 void layOut(const MazeParams& params, WorldPlan& plan);
+void layOut(const ShaftsParams& params, WorldPlan& plan);
+void layOut(const WallsParams& params, WorldPlan& plan);
+void layOut(const LevelsParams& params, WorldPlan& plan);
 
 }  // namespace spelunk::sim

@@ -77,6 +77,7 @@ std::vector<Row> gainRows(KnownMine& mine);
 std::vector<Row> planRows(KnownMine& mine);
 std::vector<Row> lidarRows(const MineWalk& walk);
 std::vector<Row> terrainRows(const MineWalk& walk);
+std::vector<Row> navigationRows(KnownMine& mine);
 
 /// Every voxel the box touches, by search; half extents less 0.1 mm.
 bool isBoxFreePlainly(const octomap::OcTree& tree, const Eigen::Vector3d& centre,

@@ -33,7 +33,8 @@ bool run(const std::string& mesh_path, const std::string& only) {
       {"gain", [&] { return gainRows(known()); }},
       {"plan", [&] { return planRows(known()); }},
       {"lidar", [&] { return lidarRows(walk); }},
-      {"terrain", [&] { return terrainRows(walk); }}};
+      {"terrain", [&] { return terrainRows(walk); }},
+      {"navigation", [&] { return navigationRows(known()); }}};
   std::cout << "| operation | against | plain | ours | ratio | floor | answers |\n"
                "|---|---|---|---|---|---|---|"
             << std::endl;
@@ -59,7 +60,8 @@ int main(int argc, char** argv) {
   app.add_option("--mesh", mesh, "mesh with <name>.json beside it that holds the start")
       ->required();
   app.add_option("--only", only, "one group of rows")
-      ->check(CLI::IsMember({"map", "status", "edge", "gain", "plan", "lidar", "terrain"}));
+      ->check(CLI::IsMember(
+          {"map", "status", "edge", "gain", "plan", "lidar", "terrain", "navigation"}));
   CLI11_PARSE(app, argc, argv);
   if (!std::filesystem::exists(mesh)) {
     std::cout << "skipped: no mesh at '" << mesh << "'" << std::endl;
