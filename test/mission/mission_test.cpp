@@ -75,6 +75,45 @@ TEST_F(CorridorMission, RefusesPathThroughUnknown) {
   EXPECT_NE(flight.mission().status().end_reason.find("no plan"), std::string::npos);
 }
 
+/// Starts so near to a wall that the safety box touches it; the path first leads off by `step_m`.
+class StartAtAWall : public CorridorMission {
+ protected:
+  void leadOffBy(double step_m) {
+    planner_.on_plan = [step_m](const planners::PlanRequest& request) {
+      if (request.pose.position.x() > 8.0) return ScriptedPlanner::none(PlanStatus::kNothingToGain);
+      const double y = request.pose.position.y() < 1.4 ? 1.3 + step_m : request.pose.position.y();
+      const Path path{
+          request.pose, {{request.pose.position.x(), y, 2.5}, 0.0}, {{10.0, y, 2.5}, 0.0}};
+      return ScriptedPlanner::path(path, PathKind::kLocal);
+    };
+  }
+  ScriptedFlight flight_{test::corridorWorld(30.0), {{3.0, 1.3, 2.5}, 0.0}, planner_};
+};
+
+TEST_F(StartAtAWall, ShortStepAwayFromItIsFlown) {
+  leadOffBy(0.6);
+  ASSERT_TRUE(flight_.start().accepted);
+  flight_.flyFor(8.0);
+  EXPECT_GT(flight_.state().pose.position.x(), 8.0);
+  EXPECT_EQ(flight_.collisions(), 0);
+}
+
+TEST_F(StartAtAWall, PathThatKeepsTouchingItIsRefused) {
+  leadOffBy(0.05);
+  ASSERT_TRUE(flight_.start().accepted);
+  flight_.flyFor(8.0);
+  EXPECT_LT(flight_.state().pose.position.x(), 3.5);
+  EXPECT_GT(flight_.mission().status().refused_paths, 0);
+}
+
+TEST_F(StartAtAWall, LongStepAwayFromItIsRefused) {
+  leadOffBy(0.9);
+  ASSERT_TRUE(flight_.start().accepted);
+  flight_.flyFor(8.0);
+  EXPECT_LT(flight_.state().pose.position.x(), 3.5);
+  EXPECT_GT(flight_.mission().status().refused_paths, 0);
+}
+
 TEST_F(CorridorMission, RefusesPathOutsideTheBounds) {
   ScriptedFlight flight(test::corridorWorld(30.0), kStart, planner_);
   AxisAlignedBox bounds;

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <limits>
+#include <map>
 #include <tuple>
 
 #include "evaluation/benchmark/plain_elevation.h"
@@ -120,7 +121,7 @@ TEST(ElevationMap, CellsStayWhereTheyAreWhenTheRobotMovesAndReturns) {
   for (int i = 0; i < 4000; ++i)
     points.emplace_back(rng.uniform(-3.9, 3.9), rng.uniform(-3.9, 3.9), rng.uniform(-0.1, 0.1));
   map.insert(scanOfPoints(points, baseAt(0, 0), 0.0), baseAt(0, 0));
-  std::map<Key, double> before;
+  std::map<std::pair<int, int>, double> before;
   for (int y = -100; y <= 100; ++y)
     for (int x = -100; x <= 100; ++x)
       if (const auto cell = map.at({x, y})) before[{x, y}] = cell->height_m;
