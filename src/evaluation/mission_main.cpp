@@ -46,6 +46,7 @@ struct Options {
 struct Loaded {
   spelunk::mission::RunConfig config;
   spelunk::sim::SimParams sim;
+  spelunk::evaluation::Delays delays;
   std::unique_ptr<spelunk::planners::ExplorationPlanner> planner;
   std::string share_dir;
 };
@@ -63,6 +64,7 @@ Loaded load(const Options& options) {
   loaded.config = spelunk::mission::loadRunConfig(
       {loaded.share_dir, options.robot, options.planner, options.assignments});
   loaded.sim = spelunk::sim::readSimParams(loaded.config.tree);
+  loaded.config.tree.read("delays", loaded.delays);
   loaded.planner = spelunk::planners::makePlanner(
       options.planner, loaded.config.tree, loaded.config.robot, loaded.config.map.resolution_m);
   loaded.config.tree.requireClean();
@@ -89,6 +91,7 @@ void listParams(const Options& options) {
   printTable(spelunk::describe("terrain", loaded.config.terrain));
   printTable(spelunk::planners::describePlanner(options.planner, loaded.config.tree));
   printTable(spelunk::describe("sim", loaded.sim));
+  printTable(spelunk::describe("delays", loaded.delays));
 }
 
 /// Numbers between commas; none if there is anything else or too few or too many of them.
@@ -187,6 +190,7 @@ int fly(const Options& options, bool quiet) {
   setup.start = startOf(options, mesh);
   setup.seed = options.seed;
   setup.time_limit_s = options.time_limit_s;
+  setup.delays = loaded.delays;
   for (const std::string& leg : options.go_to)
     setup.legs.push_back(legFrom(leg, loaded.config.navigation));
   spelunk::evaluation::MissionRun run(setup, mesh, *loaded.planner);

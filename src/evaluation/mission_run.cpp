@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "mail.h"
 #include "spelunk/common/contract.h"
 #include "spelunk/common/stopwatch.h"
 
@@ -25,7 +26,10 @@ struct MissionRun::Impl {
         planner(run_planner),
         simulator(setup.sim, setup.robot, mesh, setup.start, setup.seed),
         mission(setup.mission, setup.robot, setup.map, setup.seed, setup.terrain),
-        explored(mesh.bounds()) {
+        explored(mesh.bounds()),
+        scans(setup.delays.scan_s),
+        outcomes(setup.delays.plan_s),
+        losses(Rng(setup.seed).fork("run/lost scans")) {
     record.min_clearance_m = kClearanceLimit_m;
     last_position = simulator.trueState().pose.position;
   }
@@ -38,6 +42,8 @@ struct MissionRun::Impl {
   void step();
   void sense();
   void plan();
+  void takeOver();
+  [[nodiscard]] bool getsLost();
   void measure();
   void follow(const std::optional<mission::Command>& command);
   void addTimelineRow();
@@ -56,6 +62,9 @@ struct MissionRun::Impl {
   sim::Simulator simulator;
   mission::Mission mission;
   ExploredVolume explored;
+  Mail<Scan> scans;
+  Mail<mission::PlanOutcome> outcomes;
+  Rng losses;
   RunRecord record;
   std::int64_t ticks = 0;
   double started_s = 0.0;
@@ -71,11 +80,18 @@ double MissionRun::Impl::remaining() const {
 void MissionRun::Impl::sense() {
   for (const sim::SimulatedScan& scan : simulator.advanceTo(now())) {
     explored.add(scan);
-    mission.onScan(scan.scan);
+    if (!getsLost()) scans.send(scan.scan, now());
+  }
+  for (const Scan& scan : scans.take(now())) {
+    mission.onScan(scan);
     record.map_update_ms.push_back(mission.status().last_map_update_ms);
   }
   mission.onOdometry(simulator.odometry());
   mission.onRemaining(remaining());
+}
+
+bool MissionRun::Impl::getsLost() {
+  return setup.delays.scan_loss > 0.0 && losses.uniform() < setup.delays.scan_loss;
 }
 
 void MissionRun::Impl::measure() {
@@ -91,11 +107,13 @@ void MissionRun::Impl::follow(const std::optional<mission::Command>& command) {
   if (command) simulator.follow(command->trajectory);
 }
 
+/// One plan at a time, like a planner in a thread of its own.
 void MissionRun::Impl::plan() {
+  if (!outcomes.isEmpty()) return;
   const auto job = mission.takeJob();
   if (!job) return;
   const Stopwatch watch;
-  const mission::PlanOutcome outcome = mission::run(*job, planner);
+  mission::PlanOutcome outcome = mission::run(*job, planner);
   PlanRow row;
   row.wall_ms = watch.milliseconds();
   row.t_s = now();
@@ -104,19 +122,27 @@ void MissionRun::Impl::plan() {
   row.length_m = lengthOf(row.result.path);
   row.result.path.clear();
   row.result.remaining.clear();
-  const auto command = mission.accept(outcome, now());
-  const bool accepted = command && !command->path.empty();
-  row.verdict = accepted ? "accepted" : mission.status().reason;
   record.plans.push_back(std::move(row));
-  follow(command);
+  outcomes.send(std::move(outcome), now());
+}
+
+void MissionRun::Impl::takeOver() {
+  for (const mission::PlanOutcome& outcome : outcomes.take(now())) {
+    const auto command = mission.accept(outcome, now());
+    const bool accepted = command && !command->path.empty();
+    record.plans.back().verdict = accepted ? "accepted" : mission.status().reason;
+    follow(command);
+  }
 }
 
 void MissionRun::Impl::step() {
   ++ticks;
   sense();
   measure();
+  takeOver();
   follow(mission.tick(now()));
   plan();
+  takeOver();
   if (is_underway && mission.status().go_to.outcome != mission::GoToOutcome::kUnderway) noteLeg();
   const bool goes_on = !record.legs.empty() && !is_underway &&
                        record.legs.size() < setup.legs.size() && hasReachedAllLegs();
@@ -233,6 +259,7 @@ void MissionRun::Impl::finish() {
   record.collision_s = simulator.collisions().seconds;
   record.falls = simulator.walkerCount().falls;
   record.slips = simulator.walkerCount().slips;
+  record.trips = simulator.walkerCount().trips;
   record.zones_marked = status.zones_marked;
   record.returned_home = status.state == mission::MissionState::kDone;
   record.remaining_at_home_s = record.returned_home ? remaining() : 0.0;

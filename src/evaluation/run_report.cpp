@@ -147,6 +147,7 @@ std::string summaryText(const ReportHeader& header, const RunRecord& record) {
             {"remaining_at_home_s", rounded(record.remaining_at_home_s)},
             {"falls", record.falls},
             {"slips", record.slips},
+            {"trips", record.trips},
             {"zones_marked", record.zones_marked},
             {"plans", record.plans.size()},
             {"plan_time_ms", jsonOf(spreadOf(planTimes(record)))},

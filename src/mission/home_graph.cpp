@@ -14,6 +14,7 @@ constexpr double kShortcutWorth = 2.0;  // a shortcut saves at least half of the
 constexpr std::size_t kShortcutTries = 4;
 constexpr double kTightCost = 20.0;  // flown once, but the margin is gone: the last resort
 constexpr double kJoinReach_m = 2.0;
+constexpr double kJoinReachOnFoot_m = 0.75;  // where it has walked, and no straight way elsewhere
 constexpr double kJoinCost = 1.5;
 constexpr std::size_t kRechecksPerCall = 20;
 
@@ -38,6 +39,7 @@ graph::VertexId HomeGraph::addVertex(const Eigen::Vector3d& position) {
 
 void HomeGraph::addEdge(graph::VertexId a, graph::VertexId b, Origin origin) {
   if (a == b || graph_.hasEdge(a, b)) return;
+  if (origin == Origin::kChecked && isForbidden(graph_.position(a), graph_.position(b))) return;
   const auto id = static_cast<std::uint32_t>(edges_.size());
   edges_.push_back({a, b, origin == Origin::kFlown, false, EdgeState::kOpen});
   const Eigen::Vector3d& from = graph_.position(a);
@@ -80,7 +82,13 @@ void HomeGraph::setState(Edge& edge, EdgeState state) {
   }
 }
 
+bool HomeGraph::isForbidden(const Eigen::Vector3d& a, const Eigen::Vector3d& b) const {
+  return std::any_of(zones_.begin(), zones_.end(),
+                     [&](const NoGoZone& zone) { return sweptBoxMeets(zone, a, b, box_); });
+}
+
 void HomeGraph::noteZone(const NoGoZone& zone) {
+  zones_.push_back(zone);
   for (Edge& edge : edges_) {
     if (edge.is_flown ||
         !sweptBoxMeets(zone, graph_.position(edge.a), graph_.position(edge.b), box_))
@@ -164,7 +172,8 @@ std::optional<Path> HomeGraph::wayFrom(const Pose& from) {
   const graph::ShortestPaths& paths = fromHome();
   std::optional<graph::VertexId> best;
   double least = std::numeric_limits<double>::infinity();
-  std::vector<graph::VertexId> near = graph_.findWithin(from.position, kJoinReach_m);
+  std::vector<graph::VertexId> near =
+      graph_.findWithin(from.position, footing_ ? kJoinReachOnFoot_m : kJoinReach_m);
   if (near.empty()) near.push_back(*graph_.findNearest(from.position));
   for (const graph::VertexId id : near) {
     if (!paths.reaches(id)) continue;

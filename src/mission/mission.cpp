@@ -105,13 +105,14 @@ std::optional<Command> Mission::accept(const PlanOutcome& outcome, double now_s)
 
 MissionStatus Mission::status() const { return impl_->status; }
 
-const Path& Mission::activePath() const {
-  static const Path kNone;
-  return impl_->active ? impl_->active->waypoints() : kNone;
+Path Mission::activePath() const {
+  return impl_->active ? impl_->ofBase(impl_->active->waypoints()) : Path{};
 }
 
-const Path& Mission::wayHome() const { return impl_->way_home; }
-Path Mission::trail() const { return impl_->home_graph ? impl_->home_graph->trail() : Path{}; }
+Path Mission::wayHome() const { return impl_->ofBase(impl_->way_home); }
+Path Mission::trail() const {
+  return impl_->home_graph ? impl_->ofBase(impl_->home_graph->trail()) : Path{};
+}
 const AxisAlignedBox& Mission::bounds() const { return impl_->limits; }
 const std::vector<NoGoZone>& Mission::zones() const { return impl_->no_go; }
 const std::vector<planners::RemainingTarget>& Mission::remaining() const {
@@ -125,7 +126,7 @@ std::shared_ptr<const terrain::TerrainView> Mission::terrain() {
 
 Answer Mission::save(const std::string& folder, const planners::PlannerGraph& graph) {
   try {
-    writeRecord(folder, {impl_->limits, impl_->no_go, trail(), impl_->guard.remaining(), graph});
+    writeRecord(folder, impl_->record(graph));
     impl_->map.save(folder + "/map.ot");
     impl_->map.save(folder + "/map.bt");
   } catch (const OutsideError& error) {

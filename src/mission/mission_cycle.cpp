@@ -9,6 +9,7 @@ namespace spelunk::mission {
 namespace {
 
 constexpr double kInputSilence_s = 1.0;
+constexpr double kScanAgeMax_s = 2.0;
 constexpr double kRestSpeed_mps = 0.2;
 constexpr double kSettleMax_s = 4.0;
 constexpr double kArrived_m = 0.4;
@@ -74,9 +75,14 @@ std::optional<Command> Mission::Impl::takeCommand() {
   std::optional<Command> taken = std::move(command);
   command.reset();
   if (!taken) return taken;
-  for (Pose& pose : taken->path) pose.position.z() -= robot.box_lift_m;
+  taken->path = ofBase(std::move(taken->path));
   for (TrajectoryPoint& point : taken->trajectory) point.pose.position.z() -= robot.box_lift_m;
   return taken;
+}
+
+Path Mission::Impl::ofBase(Path path) const {
+  for (Pose& pose : path) pose.position.z() -= robot.box_lift_m;
+  return path;
 }
 
 void Mission::Impl::say(LogLevel level, const std::string& key, const std::string& text) {
@@ -107,6 +113,7 @@ void Mission::Impl::hold(const std::string& why, planners::PathOutcome outcome) 
   route.reset();
   pending.reset();
   running.reset();
+  if (goal == Goal::kHome) wants_way_home = true;  // the trail leads there, but maybe not shortest
   hold_since_s = now;
   next_refresh_s = now;
   enter(MissionState::kHold, why);
@@ -120,6 +127,9 @@ void Mission::Impl::checkInputs() {
     problem = "no odometry for more than 1 s: check the state estimation";
   } else if (last_scan_s && now - *last_scan_s > kInputSilence_s) {
     problem = "no scan for more than 1 s: check the sensor";
+  } else if (last_scan_s && scanAge() > kScanAgeMax_s) {
+    problem = withNumber("scans come in %.1f s late: the computer or the network is overloaded",
+                         scanAge());
   }
   inputs_ok = problem.empty();
   if (inputs_ok) return;

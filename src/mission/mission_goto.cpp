@@ -52,7 +52,7 @@ Answer Mission::Impl::goTo(const navigation::NavigationParams& navigation_params
   takeOff();
   refreshWayHome();
   goal = Goal::kGoTo;
-  go_to.emplace(robot.box_m);
+  go_to.emplace();
   go_to->job = {navigation_params, query};
   status.go_to = {};
   status.go_to.outcome = GoToOutcome::kUnderway;

@@ -32,8 +32,7 @@ NoGoZone unseenAround(const Eigen::Vector3d& place) {
 bool Mission::Impl::isPlanBlocked() {
   const double here = project(go_to->plan, input.latest()->pose.position).arc_m;
   const Path rest = slice(go_to->plan, here, lengthOf(go_to->plan));
-  map::ConfigurationSpace& open = go_to->open;
-  open.use(map.freeze());
+  map::ConfigurationSpace& open = spaceOf(robot.box_m, map::Passable::kNotOccupied);
   for (std::size_t i = 1; i < rest.size(); ++i)
     if (!open.isSweepFree(rest[i - 1].position, rest[i].position)) return true;
   return false;

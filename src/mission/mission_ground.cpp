@@ -7,9 +7,10 @@ namespace spelunk::mission {
 namespace {
 
 constexpr double kCheckPeriod_s = 0.25;
-constexpr double kLookAhead_m = 2.0;     // beyond the way to a standstill
-constexpr double kStopBefore_m = 0.6;    // bad ground, front of the footprint
-constexpr double kUnseenBefore_m = 0.2;  // ground that should have been seen by now
+constexpr double kGroundScanPeriod_s = 0.15;  // of one sensor: more show the same ground again
+constexpr double kLookAhead_m = 2.0;          // beyond the way to a standstill
+constexpr double kStopBefore_m = 0.6;         // bad ground, front of the footprint
+constexpr double kUnseenBefore_m = 0.2;       // ground that should have been seen by now
 constexpr double kStartRadius_m = 3.0;
 constexpr double kSampling_s = 0.2;  // of the motion ahead
 constexpr double kBackOff_m = 0.5;   // Dang 2020, section 4.3
@@ -17,11 +18,12 @@ constexpr double kBackOffSpeedShare = 0.4;
 constexpr double kZoneMargin_m = 0.1;
 constexpr double kZoneRadiusMin_m = 0.25;
 constexpr double kZoneShrink_m = 0.05;
-constexpr double kWalkedOn_m = 0.4;   // beside the trail
+constexpr double kWalkedOn_m = 0.4;  // beside the trail
+constexpr double kLateMax_s = 2.0;   // beyond it the mission holds
+constexpr double kSamePlace_m = 0.5;
+constexpr double kLook_s = 1.0;
 constexpr double kWallReach_m = 0.8;  // full extents of where a wall is looked for
 constexpr double kWallHeight_m = 0.5;
-constexpr double kStandsOn_m = 0.1;  // ground so near is under the robot already
-constexpr std::size_t kStandingTries = 10;
 constexpr double kZoneDepth_m = 1.0;  // below and above the place
 constexpr int kZoneCorners = 8;
 
@@ -53,17 +55,21 @@ NoGoZone zoneBeside(const terrain::PathGroundCheck& bad, const Eigen::Vector3d& 
 }  // namespace
 
 void Mission::Impl::noteGround(const Scan& scan) {
-  if (terrain && input.latest()) static_cast<void>(terrain->insert(scan, T_world_base));
+  if (!terrain || !input.latest()) return;
+  if (!scan.sensor.empty()) {
+    const auto last = ground_scans.find(scan.sensor);
+    if (last != ground_scans.end() && std::fabs(scan.stamp_s - last->second) < kGroundScanPeriod_s)
+      return;
+    ground_scans[scan.sensor] = scan.stamp_s;
+  }
+  static_cast<void>(terrain->insert(scan, T_world_base));
 }
 
 HomeGraph::Footing Mission::Impl::footingCheck() {
   if (!terrain) return {};
   return [rules = terrain::GroundRules::of(robot, map.params().resolution_m)](
              const map::FrozenMap& view, const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
-    const auto lookup = [&view](const Eigen::Vector3d& point, double distance_m) {
-      return terrain::groundBelow(view, point, distance_m);
-    };
-    return terrain::footingAlong(a, b, rules, lookup) == terrain::Footing::kGood;
+    return terrain::footingAlong(a, b, rules, terrain::lookupIn(view)) == terrain::Footing::kGood;
   };
 }
 
@@ -92,37 +98,53 @@ Path Mission::Impl::motionAhead(double length_m) const {
 void Mission::Impl::checkGround() {
   if (!terrain || !params.verify_ground || !active || backs_off || now < next_ground_check_s)
     return;
+  // A busy computer looks late, and at scans that are old: the robot has walked on meanwhile.
+  const double late_s = std::max(0.0, now - next_ground_check_s) + scanAge();
   next_ground_check_s = now + kCheckPeriod_s;
-  const double stop_m = brakingDistance(robot, active->reference(now).velocity.norm());
-  const auto check = groundAhead(stop_m + kLookAhead_m);
+  const double speed = active->reference(now).velocity.norm();
+  const double stop_m = brakingDistance(robot, speed) + speed * std::min(late_s, kLateMax_s);
+  const auto check = terrain->checkPath(motionAhead(stop_m + kLookAhead_m), standing());
   const bool is_bad =
       check.status == terrain::PathGround::kUntraversable && check.arc_m < stop_m + kStopBefore_m;
   // Around the start, ground beside the robot has never been in any sensor's view.
   const bool has_left_start = distance(input.latest()->pose, home_graph->home()) > kStartRadius_m;
   const bool is_unseen = check.status == terrain::PathGround::kUnknown && has_left_start &&
                          check.arc_m < stop_m + kUnseenBefore_m;
-  if ((is_bad || is_unseen) && !wasWalkedOn(check.where) && !isFootOfWall(check)) avoid(check);
+  if ((!is_bad && !is_unseen) || wasWalkedOn(check) || isFootOfWall(check)) return;
+  if (is_unseen && looksAgain(check.where)) return;
+  avoid(check);
 }
 
-/// The check of the motion ahead from the first pose on that stands on good ground: what is under
-/// the robot already bears it.
-terrain::PathGroundCheck Mission::Impl::groundAhead(double length_m) {
-  Path ahead = motionAhead(length_m);
-  terrain::PathGroundCheck check = terrain->checkPath(ahead);
-  for (std::size_t k = 0; k < kStandingTries && ahead.size() > 1; ++k) {
-    if (check.status == terrain::PathGround::kTraversable || check.arc_m > kStandsOn_m) break;
-    ahead.erase(ahead.begin());
-    check = terrain->checkPath(ahead);
-  }
-  return check;
+Pose Mission::Impl::standing() const {
+  Pose pose = input.latest()->pose;
+  pose.position.z() -= robot.box_lift_m;
+  return pose;
 }
 
-bool Mission::Impl::wasWalkedOn(const Eigen::Vector3d& place) const {
+double Mission::Impl::scanAge() const { return std::max(0.0, now - newest_scan_s); }
+
+/// Ground may be unseen because scans are late or lost: the first time, waiting helps. False if the
+/// robot has waited before the same place already.
+bool Mission::Impl::looksAgain(const Eigen::Vector3d& unseen) {
+  if (unseen_place && (*unseen_place - unseen).norm() < kSamePlace_m) return false;
+  unseen_place = unseen;
+  hold("ground ahead was not seen yet: standing to look again", planners::PathOutcome::kBlocked);
+  next_ask_s = now + kLook_s;
+  return true;
+}
+
+/// Whether all of the bad ground lies under where the robot has walked.
+bool Mission::Impl::wasWalkedOn(const terrain::PathGroundCheck& bad) const {
   const Path& trail = home_graph->trail();
-  return std::any_of(trail.begin(), trail.end(), [&](const Pose& pose) {
-    const Eigen::Vector3d gap = pose.position - place;
-    return gap.head<2>().norm() < kWalkedOn_m && std::fabs(gap.z()) < kZoneDepth_m;
-  });
+  for (std::size_t i = 1; i < trail.size(); ++i) {
+    const Eigen::Vector3d& a = trail[i - 1].position;
+    if (std::fabs(a.z() - robot.box_lift_m - bad.where.z()) > kZoneDepth_m) continue;
+    const Eigen::Vector2d way = (trail[i].position - a).head<2>();
+    const Eigen::Vector2d to = bad.where.head<2>() - a.head<2>();
+    const double share = std::clamp(to.dot(way) / std::max(way.squaredNorm(), 1e-9), 0.0, 1.0);
+    if ((to - share * way).norm() + bad.radius_m < kWalkedOn_m) return true;
+  }
+  return false;
 }
 
 /// Rough ground at a wall is the wall: what reaches up to the robot's box is avoided by its box.

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <deque>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -46,8 +47,6 @@ enum class ReplanCause { kNone, kObstacle, kDeviation };
 
 /// The flight to a point that was asked for.
 struct GoToTask {
-  explicit GoToTask(const Eigen::Vector3d& box) : open(box, map::Passable::kNotOccupied) {}
-
   NavigationJob job;  ///< Of the newest plan.
   Path plan;          ///< From where the robot was then to the point, unknown space included.
   std::optional<navigation::PathMonitor> monitor;
@@ -56,9 +55,8 @@ struct GoToTask {
   ReplanCause cause = ReplanCause::kNone;
   std::vector<NoGoZone> unseen;  ///< Places on earlier plans that did not come into view.
   Eigen::Vector3d replanned_at = Eigen::Vector3d::Zero();
-  int fruitless = 0;             ///< Replans since the robot last got somewhere.
-  map::ConfigurationSpace open;  ///< Unknown space included.
-  bool is_suspect = false;       ///< A voxel on the plan became occupied since the last look.
+  int fruitless = 0;        ///< Replans since the robot last got somewhere.
+  bool is_suspect = false;  ///< A voxel on the plan became occupied since the last look.
   double next_look_s = 0.0;
   double stopped_s = 0.0;  ///< When the last leg ended.
 };
@@ -81,6 +79,7 @@ struct Mission::Impl {
 
   // --- Inputs (mission_inputs.cpp).
   void takeOdometry(const RobotState& state);
+  void watchForFall(const RobotState& base);
   map::MapUpdate takeScan(const Scan& scan);
   [[nodiscard]] std::optional<std::string> faultOf(const Scan& scan) const;
   void takeRemaining(double remaining);
@@ -88,9 +87,12 @@ struct Mission::Impl {
   Answer pause();
   Answer goHomeAsAsked();
   Answer emergencyStop();
+  void stopAtOnce(const std::string& why);
   Answer setBounds(const AxisAlignedBox& box);
   Answer setZones(std::vector<NoGoZone> list);
+  [[nodiscard]] std::vector<NoGoZone> markedZones() const;
   [[nodiscard]] std::string startProblem();
+  [[nodiscard]] MissionRecord record(const planners::PlannerGraph& graph) const;
   void takeUp(const MissionRecord& record);
 
   void takeOff();
@@ -130,12 +132,16 @@ struct Mission::Impl {
   void say(LogLevel level, const std::string& key, const std::string& text);
   [[nodiscard]] bool isAtRest() const;
   std::optional<Command> takeCommand();
+  /// A path of the robot's box as one of its base.
+  [[nodiscard]] Path ofBase(Path path) const;
 
   // --- The ground under a robot with legs (mission_ground.cpp).
   void noteGround(const Scan& scan);
   void checkGround();
-  [[nodiscard]] terrain::PathGroundCheck groundAhead(double length_m);
-  [[nodiscard]] bool wasWalkedOn(const Eigen::Vector3d& place) const;
+  [[nodiscard]] Pose standing() const;
+  [[nodiscard]] double scanAge() const;
+  [[nodiscard]] bool looksAgain(const Eigen::Vector3d& unseen);
+  [[nodiscard]] bool wasWalkedOn(const terrain::PathGroundCheck& bad) const;
   [[nodiscard]] bool isFootOfWall(const terrain::PathGroundCheck& bad);
   void avoid(const terrain::PathGroundCheck& bad);
   void stepBackOff();
@@ -206,7 +212,8 @@ struct Mission::Impl {
   double now = 0.0;
   std::optional<double> started_s;
   std::optional<double> last_odometry_s;
-  std::optional<double> last_scan_s;
+  std::optional<double> last_scan_s;  ///< Came in.
+  double newest_scan_s = 0.0;         ///< Was taken.
   std::optional<double> reported_remaining_s;
   std::optional<std::string> input_fault;
   bool inputs_ok = false;
@@ -220,8 +227,11 @@ struct Mission::Impl {
   std::deque<map::ConfigurationSpace> spaces;  ///< One a box that was asked for.
   Eigen::Isometry3d T_world_base = Eigen::Isometry3d::Identity();  ///< Newest, of the base itself.
   double next_ground_check_s = 0.0;
+  std::map<std::string, double> ground_scans;  ///< Stamp of the newest one in the terrain map.
+  std::optional<Eigen::Vector3d> unseen_place;  ///< The robot has stood before it to look.
   double next_retime_s = 0.0;
   bool backs_off = false;
+  std::optional<double> tilted_since_s;  ///< A robot with legs lies on its side since then.
 
   // --- Plans.
   std::optional<PlanJob> pending;

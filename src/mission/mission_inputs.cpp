@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 
 #include "mission_impl.h"
 #include "spelunk/common/stopwatch.h"
@@ -9,6 +10,8 @@ namespace {
 
 constexpr double kTrailSpacing_m = 1.0;
 constexpr double kScanFuture_s = 1.0;
+constexpr double kFallenTilt_deg = 50.0;  // no slope that a robot walks on tilts it so far
+constexpr double kFallenTime_s = 0.3;
 
 bool isFinitePose(const Eigen::Isometry3d& pose) { return pose.matrix().allFinite(); }
 
@@ -28,6 +31,7 @@ void Mission::Impl::takeOdometry(const RobotState& base) {
   input_fault.reset();
   last_odometry_s = std::max(now, report.stamp_s);
   T_world_base = Eigen::Translation3d(base.pose.position) * base.orientation;
+  watchForFall(base);
   if (!home_graph) return;
   const Pose& pose = report.pose;
   const std::size_t before = home_graph->trail().size();
@@ -35,6 +39,20 @@ void Mission::Impl::takeOdometry(const RobotState& base) {
   if (home_graph->trail().size() != before) map.markFree(boxAround(pose.position, robot.box_m));
   if (stamped_trail.empty() || distance(stamped_trail.back().pose, pose) >= kTrailSpacing_m)
     stamped_trail.push_back({report.stamp_s, pose});
+}
+
+/// Told by the tilt alone: a robot that lies on its side for some time is not walking any more.
+void Mission::Impl::watchForFall(const RobotState& base) {
+  if (!terrain) return;
+  const double upright = (base.orientation * Eigen::Vector3d::UnitZ()).z();
+  if (upright > std::cos(kFallenTilt_deg * M_PI / 180.0)) return tilted_since_s.reset();
+  if (!tilted_since_s) tilted_since_s = base.stamp_s;
+  const bool lies = base.stamp_s - *tilted_since_s >= kFallenTime_s;
+  if (!lies || state == MissionState::kEStop || !isFlying()) return;
+  char why[120];
+  std::snprintf(why, sizeof why, "the robot has fallen (tilted by %.0f degrees): help it up",
+                std::acos(std::clamp(upright, -1.0, 1.0)) * 180.0 / M_PI);
+  stopAtOnce(why);
 }
 
 std::optional<std::string> Mission::Impl::faultOf(const Scan& scan) const {
@@ -58,6 +76,7 @@ map::MapUpdate Mission::Impl::takeScan(const Scan& scan) {
   noteGround(scan);
   status.last_map_update_ms = watch.milliseconds();
   last_scan_s = std::max(now, scan.stamp_s);
+  newest_scan_s = std::max(newest_scan_s, scan.stamp_s);
   ++scans;
   if (update.newly_occupied.empty()) return update;
   if (home_graph) home_graph->noteOccupied(update.newly_occupied);
@@ -81,6 +100,7 @@ void Mission::Impl::takeRemaining(double remaining) {
 
 std::string Mission::Impl::startProblem() {
   if (!input.latest()) return "no odometry yet: check the topic and the state estimation";
+  if (tilted_since_s) return "the robot lies on its side: help it up";
   const Eigen::Vector3d& position = input.latest()->pose.position;
   if (!limits.contains(position))
     return "the robot stands outside the bounds: widen them or move it";
@@ -143,21 +163,44 @@ Answer Mission::Impl::goHomeAsAsked() {
 }
 
 Answer Mission::Impl::emergencyStop() {
+  stopAtOnce("emergency stop: start releases it");
+  return {true, "stopped"};
+}
+
+void Mission::Impl::stopAtOnce(const std::string& why) {
   goal = Goal::kNone;
   active.reset();
   pending.reset();
   running.reset();
+  backs_off = false;
   command = Command{};
-  enter(MissionState::kEStop, "emergency stop: start releases it");
-  return {true, "stopped"};
+  enter(MissionState::kEStop, why);
+}
+
+MissionRecord Mission::Impl::record(const planners::PlannerGraph& graph) const {
+  MissionRecord record;
+  record.bounds = limits;
+  record.given_zones = given_zones;
+  record.marked_zones = markedZones();
+  if (home_graph) record.trail = home_graph->trail();
+  record.remaining_s = guard.remaining();
+  record.graph = graph;
+  return record;
 }
 
 void Mission::Impl::takeUp(const MissionRecord& record) {
   limits = record.bounds;
-  no_go = given_zones = record.zones;
+  no_go = given_zones = record.given_zones;
+  no_go.insert(no_go.end(), record.marked_zones.begin(), record.marked_zones.end());
+  status.zones_marked = static_cast<int>(record.marked_zones.size());
   if (record.trail.empty()) return;
   home_graph.emplace(record.trail.front(), robot.box_m, map.params().resolution_m, footingCheck());
   for (const Pose& pose : record.trail) home_graph->addTrail(pose);
+  for (const NoGoZone& zone : record.marked_zones) home_graph->noteZone(zone);
+}
+
+std::vector<NoGoZone> Mission::Impl::markedZones() const {
+  return {no_go.begin() + static_cast<long>(given_zones.size()), no_go.end()};
 }
 
 Answer Mission::Impl::setBounds(const AxisAlignedBox& box) {
@@ -180,8 +223,7 @@ Answer Mission::Impl::setZones(std::vector<NoGoZone> list) {
                                         input.latest()->pose.position, robot.box_m))
       return {false, "no-go zone '" + zone.name + "' holds the robot: move it out first"};
   }
-  const std::vector<NoGoZone> marked(no_go.begin() + static_cast<long>(given_zones.size()),
-                                     no_go.end());
+  const std::vector<NoGoZone> marked = markedZones();
   given_zones = std::move(list);
   no_go = given_zones;
   no_go.insert(no_go.end(), marked.begin(), marked.end());

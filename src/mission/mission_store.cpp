@@ -16,6 +16,8 @@ using Json = nlohmann::ordered_json;
 
 constexpr int kFormat = 1;
 
+enum class ZoneOrigin { kGiven, kMarked };
+
 /// JSON knows no infinity: null stands for "no limit".
 Json limitOf(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
 
@@ -33,14 +35,15 @@ Eigen::Vector3d vectorFrom(const Json& json, double none) {
 
 constexpr double kNoLimit = std::numeric_limits<double>::infinity();
 
-Json zoneOf(const NoGoZone& zone) {
+Json jsonOf(const NoGoZone& zone, ZoneOrigin origin) {
   Json corners = Json::array();
   for (const Eigen::Vector2d& corner : zone.polygon)
     corners.push_back(Json::array({corner.x(), corner.y()}));
   return {{"name", zone.name},
           {"polygon", corners},
           {"z_min", limitOf(zone.z_min)},
-          {"z_max", limitOf(zone.z_max)}};
+          {"z_max", limitOf(zone.z_max)},
+          {"marked_by_robot", origin == ZoneOrigin::kMarked}};
 }
 
 NoGoZone zoneFrom(const Json& json) {
@@ -51,6 +54,11 @@ NoGoZone zoneFrom(const Json& json) {
   zone.z_min = limitFrom(json.at("z_min"), -kNoLimit);
   zone.z_max = limitFrom(json.at("z_max"), kNoLimit);
   return zone;
+}
+
+/// Files of earlier versions do not tell the zones apart: people's.
+ZoneOrigin originFrom(const Json& json) {
+  return json.value("marked_by_robot", false) ? ZoneOrigin::kMarked : ZoneOrigin::kGiven;
 }
 
 Json layerOf(const planners::GraphLayer& layer) {
@@ -82,7 +90,10 @@ Json jsonOf(const MissionRecord& record) {
   Json json{{"format", kFormat}, {"remaining_s", record.remaining_s}};
   json["bounds"] = {{"min", vectorOf(record.bounds.min)}, {"max", vectorOf(record.bounds.max)}};
   json["zones"] = Json::array();
-  for (const NoGoZone& zone : record.zones) json["zones"].push_back(zoneOf(zone));
+  for (const NoGoZone& zone : record.given_zones)
+    json["zones"].push_back(jsonOf(zone, ZoneOrigin::kGiven));
+  for (const NoGoZone& zone : record.marked_zones)
+    json["zones"].push_back(jsonOf(zone, ZoneOrigin::kMarked));
   json["trail"] = Json::array();
   for (const Pose& pose : record.trail)
     json["trail"].push_back(
@@ -99,7 +110,9 @@ MissionRecord recordFrom(const Json& json) {
   record.remaining_s = json.at("remaining_s").get<double>();
   record.bounds.min = vectorFrom(json.at("bounds").at("min"), -kNoLimit);
   record.bounds.max = vectorFrom(json.at("bounds").at("max"), kNoLimit);
-  for (const Json& zone : json.at("zones")) record.zones.push_back(zoneFrom(zone));
+  for (const Json& zone : json.at("zones"))
+    (originFrom(zone) == ZoneOrigin::kMarked ? record.marked_zones : record.given_zones)
+        .push_back(zoneFrom(zone));
   for (const Json& pose : json.at("trail"))
     record.trail.push_back({vectorFrom(pose, 0.0), pose.at(3).get<double>()});
   for (const Json& layer : json.at("graph")) record.graph.layers.push_back(layerFrom(layer));

@@ -49,8 +49,7 @@ struct Query {
   NavigationAnswer run() {
     if (!checkGoal() || !checkStart()) return answer;
     const std::vector<Attempt> attempts = attemptsByGoal();
-    for (const Attempt& attempt : attempts)
-      if (goStraight(attempt)) return answer;
+    if (method != Method::kPlain && goStraight(attempts.front())) return answer;
     int left = params.iterations;
     for (std::size_t i = 0; i < attempts.size(); ++i) {
       const int share = i + 1 == attempts.size() ? left : (left + 1) / 2;
@@ -115,10 +114,7 @@ struct Query {
     return attempts;
   }
 
-  /// The first kind of attempt counts: nothing less safe is taken because it is straight.
   bool goStraight(const Attempt& attempt) {
-    if (is_straight_tried || method == Method::kPlain) return false;
-    is_straight_tried = true;
     SearchSpace space(asked, start, spaces, attempt.unknown, attempt.clearance);
     if (!space.isFree(start, asked.goal.position)) return false;
     accept({start, asked.goal.position}, space, "the straight line is free");
@@ -215,7 +211,6 @@ struct Query {
   Method method;
   Eigen::Vector3d start;
   bool is_goal_known = false;
-  bool is_straight_tried = false;
   int searches = 0;
   Stopwatch watch;
   NavigationAnswer answer;

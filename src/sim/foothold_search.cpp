@@ -39,6 +39,11 @@ std::optional<Foothold> FootholdSearch::groundBelow(const Vector3d& from, double
   return Foothold{from - hit->range_m * Vector3d::UnitZ(), hit->normal};
 }
 
+bool FootholdSearch::isRockBetween(const Vector3d& a, const Vector3d& b) const {
+  const double length = (b - a).norm();
+  return length > 0.0 && scene_.castRay(a, (b - a) / length, length);
+}
+
 std::optional<Foothold> FootholdSearch::reachable(const Leg& leg, const Isometry3d& T_world_base,
                                                   const Vector3d& wanted) const {
   const Vector3d root = T_world_base * leg.root();

@@ -162,7 +162,13 @@ bool Stepping::aimAt(std::size_t leg, const Motion& motion, double duration_s) {
 void Stepping::swing(std::size_t leg, const Motion& motion) {
   Foot& foot = feet_[leg];
   foot.swung_s += motion.step_s;
-  foot.position = foot.curve.at(std::min(1.0, foot.swung_s / foot.swing_s));
+  const Vector3d next = foot.curve.at(std::min(1.0, foot.swung_s / foot.swing_s));
+  if (foot.curve.crosses(foot.swung_s / foot.swing_s) &&
+      ground_.isRockBetween(foot.position, next)) {
+    ++trips_;
+    return giveUp(leg);
+  }
+  foot.position = next;
   if (foot.swung_s < foot.swing_s) return;
   foot.position = foot.hold.position;
   if (!legs_[leg].anglesFor(T_base_world_ * foot.position)) return giveUp(leg);

@@ -41,4 +41,6 @@ Eigen::Vector3d SwingCurve::at(double share) const {
   return foot;
 }
 
+bool SwingCurve::crosses(double share) { return share > kLeave && share < kArrive; }
+
 }  // namespace spelunk::sim

@@ -97,10 +97,14 @@ void describeBad(const Tally& tally, double z, PathGroundCheck& check) {
 
 /// Whether the pose is fine; else `check` says why not.
 bool passes(const TerrainView& view, const Pose& pose, const FootprintParams& params,
-            PathGroundCheck& check) {
+            const std::optional<Rectangle>& borne, PathGroundCheck& check) {
   Tally tally;
   Rectangle(pose, params).forEachCell(view.grid(), [&](const CellIndex& cell) {
-    tally.add(view, cell);
+    if (borne && borne->contains(view.grid().centreOf(cell))) {
+      ++tally.cells;
+    } else {
+      tally.add(view, cell);
+    }
   });
   const double cells = std::max(1, tally.cells);
   const double unknown_share = tally.unknown / cells;
@@ -121,15 +125,18 @@ bool passes(const TerrainView& view, const Pose& pose, const FootprintParams& pa
 
 }  // namespace
 
-PathGroundCheck checkPath(const TerrainView& view, const Path& path,
-                          const FootprintParams& params) {
+PathGroundCheck checkPath(const TerrainView& view, const Path& path, const FootprintParams& params,
+                          const std::optional<Pose>& standing) {
   for (const Pose& pose : path) require(isFinite(pose), "checkPath: a pose is not finite");
+  require(!standing || isFinite(*standing), "checkPath: the standing pose is not finite");
   PathGroundCheck check;
   if (path.empty()) return check;
+  std::optional<Rectangle> borne;
+  if (standing) borne.emplace(*standing, params);
   const Path poses = resampled(path, params.pose_spacing_m);
   for (std::size_t i = 0; i < poses.size(); ++i) {
     if (i > 0) check.arc_m += distance(poses[i - 1], poses[i]);
-    if (!passes(view, poses[i], params, check)) break;
+    if (!passes(view, poses[i], params, borne, check)) break;
   }
   return check;
 }

@@ -47,8 +47,8 @@ std::optional<Eigen::Vector3d> placedOnGround(const Eigen::Vector3d& point,
   const GroundBelow below = ground(point, kSearchDepth_m);
   if (below.status == GroundSearch::kFound)
     return Eigen::Vector3d(point.x(), point.y(), below.z + rules.height_m);
-  if (below.status == GroundSearch::kUnknown)
-    return Eigen::Vector3d(point.x(), point.y(), from.z());
+  if (below.status == GroundSearch::kUnknown)  // it cannot lie where free space was seen
+    return Eigen::Vector3d(point.x(), point.y(), std::min(from.z(), below.z + rules.height_m));
   return std::nullopt;
 }
 

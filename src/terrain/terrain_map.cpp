@@ -47,8 +47,8 @@ std::shared_ptr<const TerrainView> TerrainMap::freeze() {
   return view_;
 }
 
-PathGroundCheck TerrainMap::checkPath(const Path& path) {
-  return terrain::checkPath(*freeze(), path, params_.footprint);
+PathGroundCheck TerrainMap::checkPath(const Path& path, const std::optional<Pose>& standing) {
+  return terrain::checkPath(*freeze(), path, params_.footprint, standing);
 }
 
 void TerrainMap::clear() { *this = TerrainMap(params_); }

@@ -19,15 +19,13 @@ struct Walk {
   std::vector<NoGoZone> zones;
 };
 
-/// The shipped walker with smaller images.
-Walk walkPitRoom(Ground ground, std::uint64_t seed) {
+/// The shipped walker with fewer rays.
+Walk walkPitRoom(Ground ground, std::uint64_t seed, const Delays& delays = {}) {
   setLogSink([](LogLevel, const std::string&) {});
   mission::RunChoice choice;
   choice.share_dir = SPELUNK_SOURCE_DIR;
   choice.robot = "walker";
-  choice.assignments = {"sensor.lidar_16.columns=900", "sensor.depth_front.rows=120",
-                        "sensor.depth_front.columns=160", "sensor.depth_rear.rows=120",
-                        "sensor.depth_rear.columns=160"};
+  choice.assignments = {"sensor.lidar_16.columns=900"};
   mission::RunConfig config = mission::loadRunConfig(choice);
   RunSetup setup;
   setup.robot = config.robot;
@@ -38,6 +36,7 @@ Walk walkPitRoom(Ground ground, std::uint64_t seed) {
   setup.terrain = config.terrain;
   setup.start = {{-2.0, 0.0, 0.6}, 0.0};
   setup.seed = seed;
+  setup.delays = delays;
   setup.time_limit_s = 300.0;
   const auto planner =
       planners::makePlanner("gbplanner", config.tree, setup.robot, setup.map.resolution_m);
@@ -75,6 +74,17 @@ TEST(WalkerMission, PassesAPitAndABlockAndComesHome) {
   for (const NoGoZone& zone : walk.zones)
     EXPECT_TRUE(isOverPitOrBlock(centreOf(zone)))
         << zone.name << " at " << centreOf(zone).transpose();
+}
+
+TEST(WalkerMission, StaysOnItsFeetWhenPlansAndScansAreLateOrLost) {
+  Delays delays;
+  delays.plan_s = 1.0;
+  delays.scan_s = 0.3;
+  delays.scan_loss = 0.4;
+  const Walk walk = walkPitRoom(Ground::kVerified, 2, delays);
+  EXPECT_EQ(walk.record.falls, 0) << walk.record.outcome;
+  EXPECT_TRUE(walk.record.returned_home) << walk.record.outcome;
+  EXPECT_GT(walk.record.explored_volume_m3, 300.0) << walk.record.outcome;
 }
 
 TEST(WalkerMission, FallsWhereTheGroundIsTakenOnTrust) {

@@ -108,6 +108,17 @@ TEST(HomeGraph, ZoneCutsShortcutsForGoodButNotTheTrail) {
   EXPECT_NEAR(lengthOf(*graph.wayFrom(end)), 44.0, 1.5);  // the way it came
 }
 
+TEST(HomeGraph, ZoneForbidsLaterShortcutsAndRoutes) {
+  const auto map = mapOf(hall()).freeze();
+  HomeGraph graph = outAndBack();
+  NoGoZone zone;
+  zone.polygon = {{2.0, 3.2}, {28.0, 3.2}, {28.0, 3.8}, {2.0, 3.8}};
+  graph.noteZone(zone);
+  graph.connect(map);
+  graph.addRoute({{{5.0, 4.5, 2.5}, 0.0}, {{5.0, 2.5, 2.5}, 0.0}});
+  EXPECT_NEAR(lengthOf(*graph.wayFrom({{5.0, 4.5, 2.5}, 0.0})), 44.0, 1.5);  // the way it came
+}
+
 TEST(HomeGraph, TakesNoShortcutWithoutFooting) {
   const test::GridWorld world = hall();
   const auto map = mapOf(world).freeze();

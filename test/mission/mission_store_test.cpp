@@ -12,7 +12,8 @@ MissionRecord sample() {
   MissionRecord record;
   record.bounds.min = {-10.0, -20.0, -std::numeric_limits<double>::infinity()};
   record.bounds.max.x() = 30.0;
-  record.zones.push_back({"shaft", {{0.0, 0.0}, {1.0, 0.0}, {1.0, 1.0}}, -2.0, 4.0});
+  record.given_zones.push_back({"shaft", {{0.0, 0.0}, {1.0, 0.0}, {1.0, 1.0}}, -2.0, 4.0});
+  record.marked_zones.push_back({"hole", {{5.0, 0.0}, {6.0, 0.0}, {6.0, 1.0}}, -1.0, 1.0});
   record.trail = {{{1.0, 2.0, 3.0}, 0.5}, {{1.5, 2.0, 3.0}, 0.6}};
   record.remaining_s = 321.5;
   planners::GraphLayer layer;
@@ -30,9 +31,12 @@ TEST(MissionStore, ReadsWhatItWrote) {
   EXPECT_EQ(read.bounds.min.y(), -20.0);
   EXPECT_TRUE(std::isinf(read.bounds.min.z()));
   EXPECT_TRUE(std::isinf(read.bounds.max.z()));
-  ASSERT_EQ(read.zones.size(), 1U);
-  EXPECT_EQ(read.zones[0].name, "shaft");
-  EXPECT_EQ(read.zones[0].polygon.size(), 3U);
+  ASSERT_EQ(read.given_zones.size(), 1U);
+  EXPECT_EQ(read.given_zones[0].name, "shaft");
+  EXPECT_EQ(read.given_zones[0].polygon.size(), 3U);
+  ASSERT_EQ(read.marked_zones.size(), 1U);
+  EXPECT_EQ(read.marked_zones[0].name, "hole");
+  EXPECT_EQ(read.marked_zones[0].z_max, 1.0);
   ASSERT_EQ(read.trail.size(), 2U);
   EXPECT_EQ(read.trail[1].yaw, 0.6);
   EXPECT_EQ(read.remaining_s, 321.5);
@@ -57,6 +61,18 @@ TEST(MissionStore, RefusesDamagedFiles) {
   EXPECT_THROW(static_cast<void>(readRecord(folder.at(""))), OutsideError);
   folder.write("mission.json", "{\"format\": 99}");
   EXPECT_THROW(static_cast<void>(readRecord(folder.at(""))), OutsideError);
+}
+
+TEST(MissionStore, TakesZonesOfEarlierFilesForPeoples) {
+  const test::TemporaryFolder folder;
+  folder.write("mission.json",
+               R"({"format": 1, "remaining_s": 1, "trail": [], "graph": [],
+                   "bounds": {"min": [0, 0, 0], "max": [1, 1, 1]},
+                   "zones": [{"name": "shaft", "polygon": [[0, 0], [1, 0], [1, 1]],
+                              "z_min": null, "z_max": null}]})");
+  const MissionRecord read = readRecord(folder.at(""));
+  EXPECT_EQ(read.given_zones.size(), 1U);
+  EXPECT_TRUE(read.marked_zones.empty());
 }
 
 TEST(MissionStore, NamesFolderThatCannotBeWritten) {

@@ -36,7 +36,7 @@ TEST(WalkerParams, ShippedOnesAreTheDefaultsAndComplete) {
   ASSERT_EQ(robot.sensor_models.size(), 3U);
   EXPECT_EQ(robot.sensor_models[0].mount_m.z(), 0.3);
   EXPECT_EQ(robot.sensor_models[0].columns, 1800);
-  EXPECT_EQ(robot.sensor_models[1].rows * robot.sensor_models[2].columns, 240 * 320);
+  EXPECT_EQ(robot.sensor_models[1].rows * robot.sensor_models[2].columns, 120 * 160);
   const Vector3d rear = T_base_sensor(robot.sensor_models[2]) * Vector3d::UnitX();
   EXPECT_LT(rear.x(), -1.0) << "the rear camera looks back";
   EXPECT_LT(rear.z(), -0.3) << "and down";

@@ -32,6 +32,7 @@ Walked walkOn(const WorldMesh& mesh, double speed_mps, double distance_m,
 void expectArrival(const Walked& walked, double distance_m) {
   EXPECT_EQ(walked.count.falls, 0);
   EXPECT_EQ(walked.count.slips, 0);
+  EXPECT_EQ(walked.count.trips, 0);
   EXPECT_EQ(walked.trunk_contacts, 0);
   EXPECT_NEAR(walked.end.x(), distance_m, 0.15);
   EXPECT_LT(walked.worst_off_m, 0.15);
@@ -104,6 +105,15 @@ TEST(Walker, StepsOverANarrowTrenchAndUpAndDownALowStep) {
   expectArrival(walkOn(test::trench(1.0F, 0.3F), 0.5, 7.0), 7.0);
   expectArrival(walkOn(test::step(0.2F), 0.5, 8.0), 8.0);
   expectArrival(walkOn(test::step(-0.15F), 0.5, 8.0), 8.0);
+}
+
+TEST(Walker, TripsOverWhatIsTooThinToBeSeen) {
+  WorldMesh mesh = flatGround();
+  for (int k = 0; k < 6; ++k) {  // upright sheets, 4 mm thick and as high as a shin
+    const auto x = 1.0F + 0.37F * static_cast<float>(k);
+    test::addBox(mesh, {x, -3.0F, -0.1F}, {x + 0.004F, 3.0F, 0.25F});
+  }
+  EXPECT_GT(walkOn(mesh, 0.5, 4.0).count.trips, 0);
 }
 
 TEST(Walker, FallsOffALedge) {

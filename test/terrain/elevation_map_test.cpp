@@ -3,9 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <limits>
-#include <map>
 #include <tuple>
 
+#include "evaluation/benchmark/plain_elevation.h"
 #include "terrain_worlds.h"
 
 namespace spelunk::terrain {
@@ -31,108 +31,6 @@ Scan scanOfPoints(const std::vector<Eigen::Vector3d>& points, const Eigen::Isome
   return scan;
 }
 
-using Key = std::pair<int, int>;
-
-/// The same filter with a map of cells, in doubles and without regard to time.
-class PlainElevation {
- public:
-  explicit PlainElevation(const ElevationParams& params) : params_(params) {}
-
-  struct Cell {
-    double height = 0.0, variance = 0.0, other = 0.0;
-    int others = 0;
-  };
-
-  void insert(const std::vector<Eigen::Vector3d>& points, const Eigen::Vector3d& base) {
-    std::map<Key, std::vector<double>> returns;
-    for (const Eigen::Vector3d& point : points) {
-      const double limit =
-          base.z() - params_.base_height_m + params_.clearance_m +
-          std::tan(params_.climb_deg * M_PI / 180.0) * (point - base).head<2>().norm();
-      if (point.z() <= limit) returns[keyOf(point)].push_back(point.z());
-    }
-    const double way = last_ ? (base - *last_).norm() : 0.0;
-    for (auto& [key, cell] : cells) cell.variance += params_.growth_m2_per_m * way;
-    const double high = base.z() - params_.base_height_m + params_.clearance_m;
-    const auto lowest = [](const auto& entry) {
-      return *std::min_element(entry.second.begin(), entry.second.end());
-    };
-    for (const auto& entry : returns)
-      if (lowest(entry) <= high) enter(entry.first, entry.second, base);
-    std::vector<Key> standing;
-    for (const auto& entry : returns)
-      if (lowest(entry) > high && !hangs(entry.first, lowest(entry), base))
-        standing.push_back(entry.first);
-    for (const Key& key : standing) enter(key, returns[key], base);
-    last_ = base;
-  }
-  std::map<Key, Cell> cells;
-
- private:
-  [[nodiscard]] Key keyOf(const Eigen::Vector3d& point) const {
-    return {static_cast<int>(std::floor(point.x() / params_.cell_m)),
-            static_cast<int>(std::floor(point.y() / params_.cell_m))};
-  }
-  [[nodiscard]] bool hangs(const Key& key, double lowest, const Eigen::Vector3d& base) const {
-    if (cells.count(key) > 0) return false;
-    const Key middle = keyOf(base);
-    const Eigen::Vector2d way(middle.first - key.first, middle.second - key.second);
-    const double climb = std::tan(params_.climb_deg * M_PI / 180.0) * params_.cell_m;
-    for (int at = 2; at < way.norm(); at += 2) {
-      const Eigen::Vector2d step = way * (at / way.norm());
-      const auto found = cells.find({key.first + static_cast<int>(std::lround(step.x())),
-                                     key.second + static_cast<int>(std::lround(step.y()))});
-      const double foot = base.z() - params_.base_height_m;
-      if (found == cells.end() || found->second.height < foot - climb * (way.norm() - at) - 0.3)
-        continue;
-      if (lowest > found->second.height + params_.clearance_m + climb * at) return true;
-    }
-    return false;
-  }
-  void enter(const Key& key, const std::vector<double>& heights, const Eigen::Vector3d& base) {
-    const double lowest = *std::min_element(heights.begin(), heights.end());
-    const auto found = cells.find(key);
-    if (found != cells.end() && lowest > found->second.height + params_.clearance_m) return;
-    double top = lowest;
-    for (const double z : heights)
-      if (z <= lowest + params_.clearance_m) top = std::max(top, z);
-    double sum = 0.0;
-    int count = 0;
-    for (const double z : heights)
-      if (z <= top && z >= top - 0.1) sum += z, ++count;
-    const double measured = sum / count;
-    const Eigen::Vector3d centre((key.first + 0.5) * params_.cell_m,
-                                 (key.second + 0.5) * params_.cell_m, measured);
-    const double sigma =
-        params_.noise_base_m + params_.noise_quadratic_1pm * (centre - base).squaredNorm();
-    const double noise =
-        sigma * sigma / std::min(count, 4) + params_.cell_m * params_.cell_m / 16.0;
-    if (found == cells.end()) {
-      cells[key] = {measured, noise, 0.0, 0};
-      return;
-    }
-    fuse(measured, noise, found->second);
-  }
-  void fuse(double measured, double noise, Cell& cell) const {
-    const double gate = params_.gate_sigmas * params_.gate_sigmas;
-    const double innovation = measured - cell.height;
-    const double spread = cell.variance + noise;
-    if (innovation * innovation <= gate * spread) {
-      cell.height += cell.variance / spread * innovation;
-      cell.variance = std::max(9e-6, cell.variance * (1.0 - cell.variance / spread));
-      if (cell.other >= cell.height - params_.clearance_m) cell.others = 0;
-      return;
-    }
-    const double apart = measured - cell.other;
-    cell.others = cell.others > 0 && apart * apart <= 2.0 * gate * noise ? cell.others + 1 : 1;
-    cell.other = measured;
-    if (cell.others >= params_.conflicts_to_replace) cell = {measured, noise, 0.0, 0};
-  }
-
-  ElevationParams params_;
-  std::optional<Eigen::Vector3d> last_;
-};
-
 /// Hilly ground, walls and things in the air around a robot, a little away from cell borders.
 std::vector<Eigen::Vector3d> hillyPoints(Rng& rng, const Eigen::Vector3d& base, double cell_m) {
   std::vector<Eigen::Vector3d> points;
@@ -150,18 +48,18 @@ std::vector<Eigen::Vector3d> hillyPoints(Rng& rng, const Eigen::Vector3d& base, 
 
 TEST(ElevationMap, FusesAsThePlainFilterDoes) {
   ElevationParams params = plainParams();
-  params.growth_m2_per_s = 0.0;
   ElevationMap map(params);
-  PlainElevation plain(params);
+  benchmark::PlainElevation plain(params);
   Rng rng(5);
   int compared = 0;
   for (int i = 0; i < 30; ++i) {
     const Eigen::Isometry3d base = baseAt(0.02 * i, 0.0, 0.3 * i);
     const auto points = hillyPoints(rng, base.translation(), params.cell_m);
-    map.insert(scanOfPoints(points, base, 0.1 * i), base);
-    plain.insert(points, base.translation());
+    const Scan scan = scanOfPoints(points, base, 0.1 * i);
+    map.insert(scan, base);
+    plain.insert(scan, base);
   }
-  for (const auto& [key, cell] : plain.cells) {
+  for (const auto& [key, cell] : plain.cells()) {
     const auto ours = map.at({key.first, key.second});
     ASSERT_TRUE(ours.has_value());
     EXPECT_NEAR(ours->height_m, cell.height, 1e-4);

@@ -23,8 +23,16 @@ TerrainMap rubble() {
 }
 
 /// Every covered cell asked whether it lies in the rectangle.
+bool lies(const Eigen::Vector2d& point, const Pose& pose, const FootprintParams& params) {
+  const Eigen::Vector2d d = point - pose.position.head<2>();
+  const double c = std::cos(pose.yaw);
+  const double s = std::sin(pose.yaw);
+  return std::fabs(d.x() * c + d.y() * s) <= 0.5 * params.footprint_length_m &&
+         std::fabs(d.y() * c - d.x() * s) <= 0.5 * params.footprint_width_m;
+}
+
 PathGroundCheck checkPlainly(const TerrainView& view, const Path& path,
-                             const FootprintParams& params) {
+                             const FootprintParams& params, const std::optional<Pose>& standing) {
   PathGroundCheck check;
   const Path poses = resampled(path, params.pose_spacing_m);
   const int reach = static_cast<int>(1.5 / view.grid().cell());
@@ -35,12 +43,10 @@ PathGroundCheck checkPlainly(const TerrainView& view, const Path& path,
     for (int y = -reach; y <= reach; ++y)
       for (int x = -reach; x <= reach; ++x) {
         const CellIndex cell = middle + CellIndex(x, y);
-        const Eigen::Vector2d d = view.grid().centreOf(cell) - poses[i].position.head<2>();
-        const double c = std::cos(poses[i].yaw);
-        const double s = std::sin(poses[i].yaw);
-        if (std::fabs(d.x() * c + d.y() * s) > 0.5 * params.footprint_length_m) continue;
-        if (std::fabs(d.y() * c - d.x() * s) > 0.5 * params.footprint_width_m) continue;
+        const Eigen::Vector2d centre = view.grid().centreOf(cell);
+        if (!lies(centre, poses[i], params)) continue;
         ++cells;
+        if (standing && lies(centre, *standing, params)) continue;
         const GroundClass ground = view.classAt(cell);
         if (!view.covers(cell))
           ++outside;
@@ -71,8 +77,9 @@ TEST(Footprint, EqualsAskingEveryCell) {
     FootprintParams params;
     params.footprint_length_m = rng.uniform(0.2, 1.2);
     params.footprint_width_m = rng.uniform(0.1, 0.8);
-    const PathGroundCheck ours = checkPath(*view, path, params);
-    const PathGroundCheck plain = checkPlainly(*view, path, params);
+    const auto standing = i % 2 == 0 ? std::optional<Pose>(path.front()) : std::nullopt;
+    const PathGroundCheck ours = checkPath(*view, path, params, standing);
+    const PathGroundCheck plain = checkPlainly(*view, path, params, standing);
     ASSERT_EQ(ours.status, plain.status) << i;
     EXPECT_DOUBLE_EQ(ours.arc_m, plain.arc_m);
     EXPECT_DOUBLE_EQ(ours.unknown_share, plain.unknown_share);
@@ -97,6 +104,26 @@ TEST(Footprint, TheYawDecidesWhereARobotFits) {
   narrow.footprint_width_m = 0.6;
   EXPECT_EQ(checkPath(*terrain.freeze(), {along}, narrow).status, PathGround::kTraversable);
   EXPECT_EQ(checkPath(*terrain.freeze(), {across}, narrow).status, PathGround::kUntraversable);
+}
+
+TEST(Footprint, WhereARobotStandsBearsItButNotWhereItSteps) {
+  const sim::MeshScene scene(groundWithHole(0.7, 0.6, 1.0));
+  TerrainMap terrain{TerrainParams{}};
+  terrain.assumeGroundUnder(baseAt(0, 0));
+  walk(terrain, scene, -0.5, 0.0, Sight::kLidarAndCamera);
+  FootprintParams params;
+  params.footprint_length_m = 0.9;
+  params.footprint_width_m = 0.6;
+  const auto view = terrain.freeze();
+  const Pose at_the_edge{{0.4, 0.0, 0.5}, 0.0};  // 15 cm over the hole
+  const Path back{at_the_edge, {{-0.2, 0.0, 0.5}, 0.0}};
+  const Path on{at_the_edge, {{1.0, 0.0, 0.5}, 0.0}};
+  EXPECT_EQ(checkPath(*view, back, params).status, PathGround::kUntraversable);
+  EXPECT_EQ(checkPath(*view, back, params, at_the_edge).status, PathGround::kTraversable);
+  const PathGroundCheck check = checkPath(*view, on, params, at_the_edge);
+  EXPECT_EQ(check.status, PathGround::kUntraversable);
+  EXPECT_LT(check.arc_m, 0.2);
+  EXPECT_GT(check.where.x(), 0.85) << "the hole's part that does not bear it";
 }
 
 TEST(Footprint, BeyondTheMapIsPresumedTraversableAndSaid) {

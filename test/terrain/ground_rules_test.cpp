@@ -78,6 +78,28 @@ TEST(GroundRules, PutPointsOnTheGroundBelowThem) {
   EXPECT_DOUBLE_EQ(placedOnGround({2.0, 1.0, 2.5}, from, kRules, unknown)->z(), from.z());
 }
 
+/// Ground that is hidden everywhere: free space was seen down to that height.
+template <class Height>
+GroundLookup hiddenBelow(Height height) {
+  return [height](const Eigen::Vector3d& point, double) -> GroundBelow {
+    return {GroundSearch::kUnknown, height(point.x())};
+  };
+}
+
+TEST(GroundRules, FollowHiddenGroundDownASlopeButNotIntoAShaft) {
+  const Eigen::Vector3d from(0.0, 0.0, kRules.height_m);
+  const auto slope = hiddenBelow([](double x) { return -0.3 * x; });
+  const auto down = placedOnGround({2.0, 0.0, kRules.height_m}, from, kRules, slope);
+  ASSERT_TRUE(down);
+  EXPECT_NEAR(down->z(), kRules.height_m - 0.6, 1e-12);
+  EXPECT_EQ(footingAlong(from, *down, kRules, slope), Footing::kGood);
+
+  const auto shaft = hiddenBelow([](double x) { return x < 1.0 ? 0.0 : -2.5; });
+  const auto into = placedOnGround({2.0, 0.0, kRules.height_m}, from, kRules, shaft);
+  ASSERT_TRUE(into);
+  EXPECT_EQ(footingAlong(from, *into, kRules, shaft), Footing::kTooSteep);
+}
+
 TEST(GroundRules, OfARobotAddItsHeights) {
   RobotModel robot;
   robot.ride_height_m = 0.5;

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "spelunk/common/params.h"
 #include "spelunk/evaluation/explored_volume.h"
 #include "spelunk/mission/mission.h"
 #include "spelunk/planners/exploration_planner.h"
@@ -64,6 +65,7 @@ struct RunRecord {
   double min_clearance_m = 0.0;  ///< Of the robot's body to the mesh.
   int falls = 0;
   int slips = 0;
+  int trips = 0;
   int zones_marked = 0;
   double remaining_at_home_s = 0.0;
   std::vector<TimelineRow> timeline;
@@ -81,6 +83,21 @@ struct Progress {
   mission::MissionStatus status;
 };
 
+/// How late things are and what gets lost between robot and mission, as over a network or on a busy
+/// computer (section "delays").
+struct Delays {
+  double plan_s = 0.0;
+  double scan_s = 0.0;
+  double scan_loss = 0.0;
+
+  template <class Visitor>
+  void visit(Visitor&& field) {
+    field("plan_s", plan_s, Bounds{0.0, 60.0}, "a plan takes so long, simulated time");
+    field("scan_s", scan_s, Bounds{0.0, 10.0}, "a scan enters the map so late");
+    field("scan_loss", scan_loss, Bounds{0.0, 1.0}, "share of scans that never arrive");
+  }
+};
+
 /// What a run is made of.
 struct RunSetup {
   RobotModel robot;
@@ -93,12 +110,13 @@ struct RunSetup {
   std::vector<NoGoZone> zones;
   std::uint64_t seed = 1;
   double time_limit_s = 900.0;  ///< Endurance by time; the battery may say less.
-  std::vector<GoToLeg> legs;    ///< If there are some: fly to them, one after the other, and end.
+  Delays delays;
+  std::vector<GoToLeg> legs;  ///< If there are some: fly to them, one after the other, and end.
 };
 
 /// A whole mission in lockstep: simulator, mission and planner advance by tenths of a second of
-/// simulated time, plans take no simulated time beyond the mission's own look-ahead. The same setup
-/// gives the same record, wall times aside.
+/// simulated time, plans take no simulated time beyond the mission's own look-ahead unless
+/// `delays` says so. The same setup gives the same record, wall times aside.
 class MissionRun {
  public:
   /// Throws OutsideError if the start is in collision. `mesh` and `planner` must outlive the run.

@@ -38,7 +38,8 @@ class HomeGraph {
   void addTrail(const Pose& pose);
   /// A path known to be free that begins near the trail; its waypoints join the graph.
   void addRoute(const Path& route);
-  /// Cuts for good the edges that meet a no-go zone, unless the robot itself came that way.
+  /// Cuts for good the edges that meet a no-go zone, unless the robot itself came that way, and
+  /// keeps later ones from meeting it.
   void noteZone(const NoGoZone& zone);
   /// Cuts the edges that the box could not fly any more.
   void noteOccupied(const std::vector<map::VoxelIndex>& voxels);
@@ -75,12 +76,14 @@ class HomeGraph {
   void recheck(Edge& edge);
   [[nodiscard]] bool isFree(graph::VertexId a, graph::VertexId b,
                             map::ConfigurationSpace& space) const;
+  [[nodiscard]] bool isForbidden(const Eigen::Vector3d& a, const Eigen::Vector3d& b) const;
   const graph::ShortestPaths& fromHome();
 
   Eigen::Vector3d box_;
   Footing footing_;
   graph::SpatialGraph graph_;
   std::vector<Edge> edges_;
+  std::vector<NoGoZone> zones_;
   map::ConfigurationSpace space_;
   map::ConfigurationSpace tight_space_;
   navigation::SweptIndex swept_;

@@ -189,8 +189,9 @@ class Mission {
 
   // --- What there is to see.
   [[nodiscard]] MissionStatus status() const;
-  [[nodiscard]] const Path& activePath() const;
-  [[nodiscard]] const Path& wayHome() const;  ///< From about here; the best that is known.
+  // Paths are those of the robot's base.
+  [[nodiscard]] Path activePath() const;
+  [[nodiscard]] Path wayHome() const;  ///< From about here; the best that is known.
   [[nodiscard]] Path trail() const;
   [[nodiscard]] const AxisAlignedBox& bounds() const;
   [[nodiscard]] const std::vector<NoGoZone>& zones() const;
@@ -201,7 +202,8 @@ class Mission {
   [[nodiscard]] std::shared_ptr<const terrain::TerrainView> terrain();
 
   /// Saves map.bt/.ot, trail, budget, bounds and zones into a folder (with `graph` if given); load
-  /// takes them up again. The text of the Answer names path and reason.
+  /// takes them up again: zones that the robot marked stay apart from those that people set. The
+  /// text of the Answer names path and reason.
   Answer save(const std::string& folder, const planners::PlannerGraph& graph);
   Answer load(const std::string& folder, planners::PlannerGraph* graph);
 

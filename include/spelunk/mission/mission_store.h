@@ -12,9 +12,10 @@ namespace spelunk::mission {
 /// What is kept of a mission beside its map.
 struct MissionRecord {
   AxisAlignedBox bounds;
-  std::vector<NoGoZone> zones;
-  Path trail;                ///< First pose: home.
-  double remaining_s = 0.0;  ///< Endurance when it was saved.
+  std::vector<NoGoZone> given_zones;   ///< By people.
+  std::vector<NoGoZone> marked_zones;  ///< By the robot: its own trail may lead through them.
+  Path trail;                          ///< First pose: home. Of the centre of the robot's box.
+  double remaining_s = 0.0;            ///< Endurance when it was saved.
   planners::PlannerGraph graph;
 };
 

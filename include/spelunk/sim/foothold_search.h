@@ -31,6 +31,9 @@ class FootholdSearch {
   [[nodiscard]] std::optional<Foothold> groundBelow(const Eigen::Vector3d& from,
                                                     double depth_m) const;
 
+  /// Whether the straight way between two points meets the mesh.
+  [[nodiscard]] bool isRockBetween(const Eigen::Vector3d& a, const Eigen::Vector3d& b) const;
+
  private:
   [[nodiscard]] std::optional<Foothold> reachable(const Leg& leg,
                                                   const Eigen::Isometry3d& T_world_base,

@@ -79,6 +79,7 @@ struct CollisionCount {
 struct WalkerCount {
   int falls = 0;  ///< 0 or 1: who has fallen lies there.
   int slips = 0;  ///< Feet that slid by 3 cm or more, once a step.
+  int trips = 0;  ///< Swinging feet that ran into rock.
 };
 
 /// A foot of a walking robot.

@@ -53,6 +53,8 @@ class Stepping {
 
   [[nodiscard]] const std::array<Foot, kLegs>& feet() const { return feet_; }
   [[nodiscard]] int slips() const { return slips_; }
+  /// Swinging feet that ran into rock: they are drawn up and look for another place.
+  [[nodiscard]] int trips() const { return trips_; }
 
  private:
   struct Motion;
@@ -76,6 +78,7 @@ class Stepping {
   Eigen::Isometry3d T_base_world_ = Eigen::Isometry3d::Identity();
   bool was_stepping_ = false;
   int slips_ = 0;
+  int trips_ = 0;
 };
 
 }  // namespace spelunk::sim

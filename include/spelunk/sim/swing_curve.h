@@ -19,6 +19,9 @@ class SwingCurve {
   /// The foot after a share (0 .. 1) of the swing's time.
   [[nodiscard]] Eigen::Vector3d at(double share) const;
 
+  /// Whether the foot goes sideways then; before and after it only rises or sinks.
+  [[nodiscard]] static bool crosses(double share);
+
   [[nodiscard]] const Eigen::Vector3d& end() const { return to_; }
   [[nodiscard]] double top() const { return top_z_; }  ///< Its greatest height.
 

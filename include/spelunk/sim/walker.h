@@ -31,7 +31,9 @@ class Walker : public Vehicle {
   [[nodiscard]] bool isInContact() const override { return body_.isInContact(); }
   [[nodiscard]] Eigen::Vector3d bodySize() const override { return params_.trunk_m; }
 
-  [[nodiscard]] WalkerCount count() const { return {has_fallen_ ? 1 : 0, stepping_.slips()}; }
+  [[nodiscard]] WalkerCount count() const {
+    return {has_fallen_ ? 1 : 0, stepping_.slips(), stepping_.trips()};
+  }
   [[nodiscard]] JointState joints() const;
   [[nodiscard]] std::vector<FootState> feet() const;
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
 
 #include "spelunk/common/params.h"
 #include "spelunk/common/path.h"
@@ -47,9 +48,11 @@ struct PathGroundCheck {
 };
 
 /// Puts the robot's rectangle, turned by the yaw, on the path at least every pose_spacing_m, and
-/// looks at every cell whose centre lies in it. Stops at the first pose refused. An empty path is
-/// traversable. Throws Precondition if a pose is not finite.
+/// looks at every cell whose centre lies in it. Stops at the first pose refused. Ground under
+/// `standing`, where a robot stands already, counts as traversable. An empty path is traversable.
+/// Throws Precondition if a pose is not finite.
 [[nodiscard]] PathGroundCheck checkPath(const TerrainView& view, const Path& path,
-                                        const FootprintParams& params);
+                                        const FootprintParams& params,
+                                        const std::optional<Pose>& standing = std::nullopt);
 
 }  // namespace spelunk::terrain

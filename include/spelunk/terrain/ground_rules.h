@@ -31,8 +31,17 @@ struct GroundRules {
 /// Looks straight down in some map: groundBelow() of it.
 using GroundLookup = std::function<GroundBelow(const Eigen::Vector3d&, double)>;
 
+/// The lookup in a map, which it refers to.
+template <class Map>
+[[nodiscard]] GroundLookup lookupIn(const Map& map) {
+  return [&map](const Eigen::Vector3d& point, double distance_m) {
+    return groundBelow(map, point, distance_m);
+  };
+}
+
 /// `point` at the robot's height above the ground below it; where that is unknown, at the height of
-/// `from`. None if there is none.
+/// `from`, or lower where free space was seen below that: a slope down whose ground is hidden. None
+/// if there is none.
 [[nodiscard]] std::optional<Eigen::Vector3d> placedOnGround(const Eigen::Vector3d& point,
                                                             const Eigen::Vector3d& from,
                                                             const GroundRules& rules,

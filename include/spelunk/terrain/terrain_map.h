@@ -43,7 +43,8 @@ class TerrainMap {
   /// An immutable view with the traversability brought up to date; the same one until the map
   /// changes.
   [[nodiscard]] std::shared_ptr<const TerrainView> freeze();
-  [[nodiscard]] PathGroundCheck checkPath(const Path& path);
+  [[nodiscard]] PathGroundCheck checkPath(const Path& path,
+                                          const std::optional<Pose>& standing = std::nullopt);
   [[nodiscard]] std::optional<double> groundHeight(const Eigen::Vector2d& xy) {
     return freeze()->groundHeight(xy);
   }

@@ -145,6 +145,8 @@ struct GbPlanner::Search {
     const Stopwatch watch;
     const GlobalQuery query{current, request.remaining_s, planner.robot_.speed_max_mps,
                             [this](const Eigen::Vector3d& at) {
+                              if (wasVisited(request.trail, at, planner.params_.visited_radius_m))
+                                return 0.0;
                               return gainAnywhere(request, credible(), planner.evaluator_, at,
                                                   request.pose.yaw);
                             }};

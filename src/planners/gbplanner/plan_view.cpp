@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "spelunk/common/contract.h"
+#include "spelunk/planners/gbplanner/exploration_gain.h"
 
 namespace spelunk::planners::gbplanner {
 namespace {
@@ -24,10 +25,7 @@ Eigen::Vector3d rayMargin(const map::GainEvaluator& evaluator, const map::Frozen
 /// What a robot with legs stands on.
 std::optional<GroundUnder> groundUnder(const map::FrozenMap& map, const RobotModel& robot) {
   if (kindOf(robot) != RobotKind::kLegged) return std::nullopt;
-  return GroundUnder{terrain::GroundRules::of(robot, map.resolution()),
-                     [&map](const Eigen::Vector3d& point, double distance_m) {
-                       return terrain::groundBelow(map, point, distance_m);
-                     }};
+  return GroundUnder{terrain::GroundRules::of(robot, map.resolution()), terrain::lookupIn(map)};
 }
 
 AxisAlignedBox grown(const AxisAlignedBox& box, const Eigen::Vector3d& margin) {
@@ -47,6 +45,7 @@ PlanView::PlanView(const PlanRequest& request, const RobotModel& robot,
                    const BodySpaces& bodies)
     : request_(request),
       evaluator_(evaluator),
+      visited_radius_m_(params.visited_radius_m),
       local_box_(
           intersection(boxAround(request.pose.position, params.local_box_m), request.bounds)),
       space_([&exact = bodies.exact](const Eigen::Vector3d& a,
@@ -68,6 +67,7 @@ void PlanView::prepareGains(const map::FrozenMap& credible) {
 
 double PlanView::gainAt(const Eigen::Vector3d& position, double yaw) const {
   require(credible_.has_value(), "PlanView: prepareGains was not called");
+  if (wasVisited(request_.trail, position, visited_radius_m_)) return 0.0;
   return evaluator_.evaluate(*credible_, position, yaw, request_.bounds).unknown_m3;
 }
 

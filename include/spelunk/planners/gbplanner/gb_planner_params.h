@@ -38,6 +38,7 @@ struct GbPlannerParams {
   double global_radius_m = 4.0;
   double eta_factor = 1.1;
   double tried_radius_m = 3.0;
+  double visited_radius_m = 0.0;
   double shortcut_length_max_m = 12.0;
   double prune_length_m = 0.5;
   double inflation_radius_m = 2.5;
@@ -96,6 +97,8 @@ struct GbPlannerParams {
     field("eta_factor", eta_factor, Bounds{1.0, 5.0}, "travel time is length / speed times this");
     field("tried_radius_m", tried_radius_m, Bounds{0.1, 50.0},
           "targets this near to a failed one are the same");
+    field("visited_radius_m", visited_radius_m, Bounds{0.0, 10.0},
+          "places this near to the trail have shown what they can; 0: any may show more");
     field("shortcut_length_max_m", shortcut_length_max_m, Bounds{0.5, 200.0},
           "longest straight shortcut of a path");
     field("prune_length_m", prune_length_m, Bounds{0.0, 5.0}, "shorter edges are pruned");

@@ -34,12 +34,14 @@ class PlanView {
   [[nodiscard]] const FreeSpace& roomySpace() const { return roomy_space_; }
   /// Makes what gainAt() reads; call once before it.
   void prepareGains(const map::FrozenMap& credible);
-  /// VolumetricGain at a position of the local box, over credible unknown voxels only; m3.
+  /// VolumetricGain at a position of the local box, over credible unknown voxels only; none where
+  /// the robot has been; m3.
   [[nodiscard]] double gainAt(const Eigen::Vector3d& position, double yaw) const;
 
  private:
   const PlanRequest& request_;
   const map::GainEvaluator& evaluator_;
+  double visited_radius_m_;
   AxisAlignedBox local_box_;
   std::optional<map::LocalWindow> credible_;
   FreeSpace space_;

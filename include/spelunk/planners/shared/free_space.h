@@ -37,7 +37,6 @@ class FreeSpace {
     return along(a, b) == Rejection::kNone;
   }
 
-  [[nodiscard]] bool isOnGround() const { return ground_.has_value(); }
   /// Where a robot that comes from `from` would be at `point`: for one with legs at its height
   /// above the ground there. None if there is no ground.
   [[nodiscard]] std::optional<Eigen::Vector3d> placed(const Eigen::Vector3d& point,
