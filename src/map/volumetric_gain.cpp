@@ -1,7 +1,6 @@
 #include "spelunk/map/volumetric_gain.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <mutex>
@@ -70,14 +69,13 @@ class SeenCells {
   SeenCells(const SeenCells&) = delete;
   SeenCells& operator=(const SeenCells&) = delete;
 
-  /// Whether the cell is new; it is not the next time.
-  bool add(std::size_t cell) {
+  /// 1 if the cell is new, 0 the next time. No branch depends on it: nothing could predict it.
+  std::uint64_t add(std::size_t cell) {
     std::uint64_t& word = words_[cell / 64];
-    const std::uint64_t bit = std::uint64_t{1} << (cell % 64);
-    if ((word & bit) != 0) return false;
     if (word == 0) touched_.push_back(cell / 64);
-    word |= bit;
-    return true;
+    const std::uint64_t is_new = ~(word >> (cell % 64)) & 1;
+    word |= std::uint64_t{1} << (cell % 64);
+    return is_new;
   }
 
  private:
@@ -196,7 +194,7 @@ void countRayOnce(const std::uint8_t* window, std::size_t start, const std::int3
   for (std::size_t i = 0; i < count; ++i) {
     const std::size_t at = start + static_cast<std::size_t>(static_cast<std::int64_t>(offsets[i]));
     const auto status = static_cast<Occupancy>(window[at]);
-    if (seen.add(at)) {
+    if (seen.add(at) != 0) {
       gain.unknown_voxels += status == Occupancy::kUnknown ? 1 : 0;
       gain.occupied_voxels += status == Occupancy::kOccupied ? 1 : 0;
       gain.free_voxels += status == Occupancy::kFree ? 1 : 0;
@@ -212,7 +210,8 @@ void countTreeOnce(const RayTree& tree, const std::vector<std::int32_t>& offsets
   const bool is_all_reachable =
       reachable.contains(tree.extent().first) && reachable.contains(tree.extent().last);
   const std::uint32_t* after = tree.after().data();
-  std::array<int, 3> counts{};  // by status
+  constexpr int kBitsACount = 21;
+  std::uint64_t counts = 0;  // of all three statuses, side by side in one register
   for (std::uint32_t i = 0; i < offsets.size();) {
     const TemplateRays::Step& step = tree.steps()[i];
     if (!is_all_reachable && !reachable.contains({step[0], step[1], step[2]})) {
@@ -221,12 +220,16 @@ void countTreeOnce(const RayTree& tree, const std::vector<std::int32_t>& offsets
     }
     const std::size_t at = start + static_cast<std::size_t>(static_cast<std::int64_t>(offsets[i]));
     const std::uint8_t status = cells[at];
-    if (seen.add(at)) ++counts[status];
+    counts += seen.add(at) << (kBitsACount * status);
     i = static_cast<Occupancy>(status) == Occupancy::kOccupied ? after[i] : i + 1;
   }
-  gain.unknown_voxels += counts[static_cast<std::size_t>(Occupancy::kUnknown)];
-  gain.free_voxels += counts[static_cast<std::size_t>(Occupancy::kFree)];
-  gain.occupied_voxels += counts[static_cast<std::size_t>(Occupancy::kOccupied)];
+  const auto countOf = [counts](Occupancy status) {
+    constexpr std::uint64_t kOnes = (std::uint64_t{1} << kBitsACount) - 1;
+    return static_cast<int>((counts >> (kBitsACount * static_cast<int>(status))) & kOnes);
+  };
+  gain.unknown_voxels += countOf(Occupancy::kUnknown);
+  gain.free_voxels += countOf(Occupancy::kFree);
+  gain.occupied_voxels += countOf(Occupancy::kOccupied);
 }
 
 }  // namespace
