@@ -12,7 +12,7 @@ constexpr double kShortestLeg_m = 0.3;    // from a standstill
 constexpr double kEnd_m = 1e-6;
 constexpr double kProgress_m = 0.5;
 constexpr int kFruitlessMax = 12;
-constexpr double kUnseenAhead_m = 0.5;  // the place on the plan that did not come into view ...
+constexpr double kUnseenAhead_m = 0.1;  // from the box to what did not come into view ...
 constexpr double kUnseenHalf_m = 0.3;   // ... and half the edge of what is avoided around it
 constexpr double kLineTolerance_m = 0.02;
 
@@ -74,7 +74,8 @@ std::string Mission::Impl::flyPlan(double from_m, double to_m) {
 
 void Mission::Impl::noteUnseen() {
   ++status.go_to.replans_unseen;
-  const double ahead = std::min(go_to->taken_up_m + kUnseenAhead_m, lengthOf(go_to->plan));
+  const double gap = 0.5 * robot.box_m.head<2>().norm() + kUnseenAhead_m + kUnseenHalf_m;
+  const double ahead = std::min(go_to->taken_up_m + gap, lengthOf(go_to->plan));
   go_to->unseen.push_back(unseenAround(poseAt(go_to->plan, ahead).position));
 }
 
@@ -107,7 +108,9 @@ void Mission::Impl::askForWay() {
   query.start = job.pose;
   query.bounds = limits;
   query.zones = no_go;
-  query.zones.insert(query.zones.end(), go_to->unseen.begin(), go_to->unseen.end());
+  for (const NoGoZone& zone : go_to->unseen)
+    if (!sweptBoxMeets(zone, query.start.position, query.start.position, robot.box_m))
+      query.zones.push_back(zone);  // where the robot stands is no place to avoid
   query.rng = rng.fork("go_to/" + std::to_string(job.number));
   PlanJob plan;
   plan.number = job.number;

@@ -100,6 +100,12 @@ GoToLeg legTo(const Eigen::Vector3d& target) {
 
 TEST(MissionRun, FliesToEachPointInTurnAndEndsAsReached) {
   RunSetup setup = roomSetup();
+  SensorModel& sensor = setup.robot.sensor_models[0];
+  sensor.fov_vertical_deg = 176;  // all round
+  sensor.rows = 88;
+  sensor.reports_misses = true;  // what is free ahead is seen to be free
+  setup.map.range_max_m = 7.5;   // beyond it a point is a miss
+  setup.time_limit_s = 120.0;
   setup.legs = {legTo({8.0, 1.0, 1.5}), legTo({-10.0, 0.0, 1.5})};  // the first one is unseen yet
   const RunRecord record = flyRoom(setup);
   EXPECT_EQ(record.outcome, "reached");
