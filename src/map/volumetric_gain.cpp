@@ -65,6 +65,7 @@ class SeenCells {
   }
   ~SeenCells() {
     for (const std::size_t word : touched_) words_[word] = 0;
+    touched_.clear();
   }
   SeenCells(const SeenCells&) = delete;
   SeenCells& operator=(const SeenCells&) = delete;
@@ -83,8 +84,12 @@ class SeenCells {
     thread_local std::vector<std::uint64_t> words;
     return words;
   }
+  static std::vector<std::size_t>& touched() {
+    thread_local std::vector<std::size_t> touched;
+    return touched;
+  }
   std::uint64_t* words_ = nullptr;
-  std::vector<std::size_t> touched_;
+  std::vector<std::size_t>& touched_ = touched();
 };
 
 /// Counts the free among the lowest `count` of eight cells, none of which is occupied.
