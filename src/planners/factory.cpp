@@ -4,6 +4,7 @@
 
 #include "spelunk/common/contract.h"
 #include "spelunk/planners/baselines/frontier_planner.h"
+#include "spelunk/planners/baselines/nbvp_planner.h"
 #include "spelunk/planners/gbplanner/gb_planner.h"
 #include "spelunk/planners/informed/informed_planner.h"
 
@@ -46,12 +47,13 @@ void requireFlying(const std::string& name, const RobotModel& robot) {
 }  // namespace
 
 std::vector<std::string> plannerNames() {
-  return {"gbplanner", "informed", "frontier_nearest", "frontier_utility"};
+  return {"gbplanner", "informed", "frontier_nearest", "frontier_utility", "nbvp"};
 }
 
 std::vector<ParamDescription> describePlanner(const std::string& name, ParamTree& tree) {
   if (name == "gbplanner") return describe(name, paramsOf<gbplanner::GbPlannerParams>(name, tree));
   if (name == "informed") return describe(name, paramsOf<informed::InformedParams>(name, tree));
+  if (name == "nbvp") return describe(name, paramsOf<baselines::NbvpParams>(name, tree));
   if (preferenceOf(name))
     return describe(name, paramsOf<baselines::FrontierPlannerParams>(name, tree));
   refuseUnknown(name);
@@ -67,6 +69,9 @@ std::unique_ptr<ExplorationPlanner> makePlanner(const std::string& name, ParamTr
     return std::make_unique<informed::InformedPlanner>(
         checkedParamsOf<informed::InformedParams>(name, tree), robot, resolution_m);
   }
+  if (name == "nbvp")
+    return std::make_unique<baselines::NbvpPlanner>(
+        checkedParamsOf<baselines::NbvpParams>(name, tree), robot, resolution_m);
   if (const auto preference = preferenceOf(name)) {
     requireFlying(name, robot);
     return std::make_unique<baselines::FrontierPlanner>(
