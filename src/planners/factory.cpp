@@ -12,16 +12,15 @@ namespace spelunk::planners {
 namespace {
 
 template <class Params>
-Params paramsOf(const std::string& section, ParamTree& tree) {
-  Params params;
+Params paramsOf(const std::string& section, ParamTree& tree, Params params = {}) {
   tree.read(section, params);
   return params;
 }
 
 /// The same, its rules between fields checked as well.
 template <class Params>
-Params checkedParamsOf(const std::string& section, ParamTree& tree) {
-  const auto params = paramsOf<Params>(section, tree);
+Params checkedParamsOf(const std::string& section, ParamTree& tree, const Params& defaults = {}) {
+  const Params params = paramsOf(section, tree, defaults);
   for (const std::string& problem : params.problems()) tree.addProblem(section + ": " + problem);
   return params;
 }
@@ -33,9 +32,15 @@ Params checkedParamsOf(const std::string& section, ParamTree& tree) {
 }
 
 std::optional<baselines::Preference> preferenceOf(const std::string& name) {
-  if (name == "frontier_nearest") return baselines::Preference::kNearest;
+  if (name == "frontier_nearest" || name == "frontier_rrt_star")
+    return baselines::Preference::kNearest;
   if (name == "frontier_utility") return baselines::Preference::kUtility;
   return std::nullopt;
+}
+
+baselines::FrontierPlannerParams frontierDefaults(const std::string& name) {
+  if (name == "frontier_rrt_star") return baselines::FrontierPlannerParams::withRrtStar();
+  return {};
 }
 
 void requireFlying(const std::string& name, const RobotModel& robot) {
@@ -47,15 +52,15 @@ void requireFlying(const std::string& name, const RobotModel& robot) {
 }  // namespace
 
 std::vector<std::string> plannerNames() {
-  return {"gbplanner", "informed", "frontier_nearest", "frontier_utility", "nbvp"};
+  return {"gbplanner",        "informed",          "frontier_nearest",
+          "frontier_utility", "frontier_rrt_star", "nbvp"};
 }
 
 std::vector<ParamDescription> describePlanner(const std::string& name, ParamTree& tree) {
   if (name == "gbplanner") return describe(name, paramsOf<gbplanner::GbPlannerParams>(name, tree));
   if (name == "informed") return describe(name, paramsOf<informed::InformedParams>(name, tree));
   if (name == "nbvp") return describe(name, paramsOf<baselines::NbvpParams>(name, tree));
-  if (preferenceOf(name))
-    return describe(name, paramsOf<baselines::FrontierPlannerParams>(name, tree));
+  if (preferenceOf(name)) return describe(name, paramsOf(name, tree, frontierDefaults(name)));
   refuseUnknown(name);
 }
 
@@ -75,8 +80,7 @@ std::unique_ptr<ExplorationPlanner> makePlanner(const std::string& name, ParamTr
   if (const auto preference = preferenceOf(name)) {
     requireFlying(name, robot);
     return std::make_unique<baselines::FrontierPlanner>(
-        checkedParamsOf<baselines::FrontierPlannerParams>(name, tree), *preference, robot,
-        resolution_m);
+        checkedParamsOf(name, tree, frontierDefaults(name)), *preference, robot, resolution_m);
   }
   refuseUnknown(name);
 }

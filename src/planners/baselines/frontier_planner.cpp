@@ -22,13 +22,6 @@ constexpr double kClusterSide_m = 2.0;
 constexpr double kReached_m = 0.5;
 constexpr double kShareLeft = 0.5;  // of what a target promised that still makes it worth having
 
-navigation::NavigationParams navigationParams(const FrontierPlannerParams& params) {
-  navigation::NavigationParams navigation;
-  navigation.safe_distance_m = params.safe_distance_m;
-  navigation.iterations = params.iterations;
-  return navigation;
-}
-
 /// Places that need not be looked at again in this plan.
 class Crossed {
  public:
@@ -293,7 +286,7 @@ FrontierPlanner::FrontierPlanner(const FrontierPlannerParams& params, Preference
       preference_(preference),
       robot_(robot),
       view_(robot, resolution_m, {params.range_m, {params.closing_height_m, params.growth_m}}),
-      navigator_(navigationParams(params)),
+      navigator_(params.navigation()),
       boxes_(robot.box_m),
       tried_(params.tried_radius_m) {
   require(kindOf(robot) == RobotKind::kAerial, "FrontierPlanner: for robots that fly");

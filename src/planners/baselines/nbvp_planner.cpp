@@ -19,7 +19,7 @@ using graph::Polyline;
 using graph::VertexId;
 
 constexpr int kSamplesBetweenClockReads = 64;
-constexpr double kSamePlace_m = 0.3;  // shorter edges lead nowhere
+constexpr double kSamePlace_m = 0.1;  // what is left of a shorter edge is none
 
 bool seesAllAround(const RobotModel& robot) {
   constexpr double kFullCircle_deg = 359.0;
@@ -72,9 +72,8 @@ struct NbvpPlanner::Search {
   }
 
   void noteOutcome() {
-    if (planner.branch_.empty()) return;
-    planner.tried_.note(planner.branch_.front().position, request.last_outcome,
-                        request.last_reason);
+    if (const auto target = std::exchange(planner.target_, std::nullopt))
+      planner.tried_.note(target->position, request.last_outcome, request.last_reason);
   }
 
   void followTrail() {
@@ -130,7 +129,7 @@ struct NbvpPlanner::Search {
     const std::size_t nearest = tree->nearestTo(point);
     const Eigen::Vector3d from = tree->node(nearest).pose.position;
     const double gap = (point - from).norm();
-    if (gap < kSamePlace_m) return;
+    if (gap < params.edge_length_min_m) return;
     point = from + (point - from) * std::min(1.0, params.edge_length_max_m / gap);
     const auto placed = space.placed(point, from);
     if (!placed) return count(Rejection::kTooSteep, result.stats);
@@ -154,7 +153,8 @@ struct NbvpPlanner::Search {
   }
 
   [[nodiscard]] bool mayBeBest(std::size_t number) {
-    if (planner.tried_.findRefusal(firstEdgeTo(number).position)) return is_refused = true, false;
+    if (planner.tried_.findRefusal(tree->node(executedOf(number)).pose.position))
+      return is_refused = true, false;
     const double metres = tree->node(number).length_m + wayHomeFrom(number);
     const double seconds = params.eta_factor * metres / planner.robot_.speed_max_mps;
     if (seconds > request.remaining_s) return is_over_budget = true, false;
@@ -165,20 +165,26 @@ struct NbvpPlanner::Search {
     return tree->node(number).length_m + (std::isfinite(way_home_m) ? way_home_m : 0.0);
   }
 
-  [[nodiscard]] const Pose& firstEdgeTo(std::size_t number) const {
-    while (tree->node(number).parent != 0) number = tree->node(number).parent;
-    return tree->node(number).pose;
+  /// The end of the first edge of the branch to a node; of what is left of one and the next.
+  [[nodiscard]] std::size_t executedOf(std::size_t number) const {
+    for (;;) {
+      const std::size_t parent = tree->node(number).parent;
+      if (parent == 0 || tree->node(parent).length_m < params.edge_length_min_m) return number;
+      number = parent;
+    }
   }
 
   void executeFirstEdge() {
     if (best == 0) return reportNothingLeft();
     for (const std::size_t number : tree->branchTo(best))
       if (number != 0) planner.branch_.push_back(tree->node(number).pose);
-    const Pose& end = planner.branch_.front();
     result.status = PlanStatus::kOk;
     result.kind = PathKind::kLocal;
-    result.path = pathFrom(request.pose, root.position, {root.position, end.position});
-    result.path.back().yaw = end.yaw;
+    result.path = {request.pose};
+    if (root.position != request.pose.position) result.path.push_back(root);
+    for (const std::size_t number : tree->branchTo(executedOf(best)))
+      if (number != 0) result.path.push_back(tree->node(number).pose);
+    planner.target_ = result.path.back();
     result.stats.best_gain = tree->node(best).gain_m3;
     result.reason = "first of " + std::to_string(planner.branch_.size()) + " edges, " +
                     std::to_string(std::lround(result.stats.best_gain)) + " m3 along them";
@@ -282,6 +288,7 @@ void NbvpPlanner::reset() {
   trail_known_until_s_ = -std::numeric_limits<double>::infinity();
   tried_ = TriedTargets(params_.tried_radius_m);
   branch_.clear();
+  target_.reset();
   tree_layer_ = {};
 }
 

@@ -17,7 +17,8 @@ namespace spelunk::planners::baselines {
 /// What makes one frontier better than another.
 enum class Preference {
   kNearest,  ///< The shortest way to it: Yamauchi, A frontier-based approach for autonomous
-             ///< exploration, CIRA 1997. "FE" in Akbari 2021, section VIII-B.
+             ///< exploration, CIRA 1997. "FE" in Akbari 2021, section VIII-B; with ways by RRT*
+             ///< the "FrontierPlanner" of Dang 2020, section 5.
   kUtility   ///< Most unknown volume seen from it a second of travel: Dai et al., Fast
              ///< frontier-based information-driven autonomous exploration with an MAV, ICRA 2020.
              ///< "UE".

@@ -11,6 +11,7 @@ namespace spelunk::planners::baselines {
 struct NbvpParams {
   int max_vertices = 500;
   int give_up_vertices = 2500;
+  double edge_length_min_m = 1.0;
   double edge_length_max_m = 6.0;
   double distance_weight = 0.1;
   double gain_min_m3 = 40.0;
@@ -26,6 +27,8 @@ struct NbvpParams {
           "the tree grows so large, and on while nothing is to be gained [N_max]", Audience::kUser);
     field("give_up_vertices", give_up_vertices, Bounds{2, 1000000},
           "nothing gained in a tree so large: explored [N_TOL]", Audience::kUser);
+    field("edge_length_min_m", edge_length_min_m, Bounds{0.05, 50.0},
+          "shorter edges are not worth a node; what is left of one is executed with the next");
     field("edge_length_max_m", edge_length_max_m, Bounds{0.2, 50.0}, "longest edge of the tree");
     field("distance_weight", distance_weight, Bounds{0.0, 10.0},
           "how much distance along a branch costs, 1/m [lambda]", Audience::kUser);

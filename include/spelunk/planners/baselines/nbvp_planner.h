@@ -26,7 +26,9 @@ namespace spelunk::planners::baselines {
 /// that none is lost; where a sensor sees all around, a node looks along its edge instead of
 /// somewhere at random; unknown volume is counted as GBPlanner counts it here (cones in the
 /// credible map), so that the comparison is about the search; a branch counts only if there is time
-/// for it and the way home. The cost of a node is the length of its whole branch.
+/// for it and the way home; the next plan begins before the robot has come to the end of an edge,
+/// and what is then left of that edge is executed with the next one. The cost of a node is the
+/// length of its whole branch.
 ///
 /// best_gain of the stats is that of the best branch, gain_threshold the volume below which a place
 /// sees nothing; m3. planHome(): the shortest way along the robot's own trail and its short cuts,
@@ -56,7 +58,8 @@ class NbvpPlanner final : public ExplorationPlanner {
   GlobalGraph trail_;
   double trail_known_until_s_ = -std::numeric_limits<double>::infinity();
   TriedTargets tried_;
-  std::vector<Pose> branch_;  ///< The best branch of the newest tree, its root left out.
+  std::vector<Pose> branch_;    ///< The best branch of the newest tree, its root left out.
+  std::optional<Pose> target_;  ///< Where its executed part ends.
   GraphLayer tree_layer_;
 };
 
