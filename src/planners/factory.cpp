@@ -39,7 +39,8 @@ std::optional<baselines::Preference> preferenceOf(const std::string& name) {
 }
 
 baselines::FrontierPlannerParams frontierDefaults(const std::string& name) {
-  if (name == "frontier_rrt_star") return baselines::FrontierPlannerParams::withRrtStar();
+  if (name == "frontier_rrt_star") return baselines::FrontierPlannerParams::forRrtStar();
+  if (name == "frontier_nearest") return baselines::FrontierPlannerParams::forNearest();
   return {};
 }
 

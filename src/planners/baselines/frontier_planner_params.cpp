@@ -12,11 +12,19 @@ navigation::NavigationParams FrontierPlannerParams::navigation() const {
 
 std::vector<std::string> FrontierPlannerParams::problems() const { return navigation().problems(); }
 
-FrontierPlannerParams FrontierPlannerParams::withRrtStar() {
+FrontierPlannerParams FrontierPlannerParams::forNearest() {
+  FrontierPlannerParams params;
+  params.gain_min_m3 = 0.0;  // every frontier is a target
+  return params;
+}
+
+FrontierPlannerParams FrontierPlannerParams::forRrtStar() {
   FrontierPlannerParams params;
   params.way_method = "rrt_star";
   params.iterations = 2500;  // all of them are used, and each way there and home is one query
   params.candidates = 3;
+  params.gain_min_m3 = 10.0;  // around a LiDAR of few rows, floor and roof are frontier everywhere
+  params.range_m = 10.0;
   return params;
 }
 

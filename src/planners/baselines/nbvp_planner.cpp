@@ -15,9 +15,6 @@
 namespace spelunk::planners::baselines {
 namespace {
 
-using graph::Polyline;
-using graph::VertexId;
-
 constexpr int kSamplesBetweenClockReads = 64;
 constexpr double kSamePlace_m = 0.1;  // what is left of a shorter edge is none
 
@@ -43,7 +40,6 @@ struct NbvpPlanner::Search {
   PlanResult result{};
   Pose root{};
   double way_home_m = 0.0;
-  VertexId current{};
   std::optional<NbvpTree> tree{};
   std::optional<TiledGain> gains{};
   std::size_t best = 0;
@@ -72,21 +68,15 @@ struct NbvpPlanner::Search {
   }
 
   void noteOutcome() {
-    if (const auto target = std::exchange(planner.target_, std::nullopt))
-      planner.tried_.note(target->position, request.last_outcome, request.last_reason);
+    const Path& branch = planner.branch_;
+    if (branch.empty()) return;
+    planner.tried_.note(poseAt(branch, planner.executed_m_).position, request.last_outcome,
+                        request.last_reason);
   }
 
   void followTrail() {
-    GlobalGraph& trail = planner.trail_;
-    if (trail.isEmpty()) trail.setHome(request.home.position);
-    for (const StampedPose& stamped : request.trail) {
-      if (stamped.time_s <= planner.trail_known_until_s_) continue;
-      trail.addFlown(stamped.pose.position, space);
-      planner.trail_known_until_s_ = stamped.time_s;
-    }
-    current = trail.addPoint(root.position, space);
-    trail.forgetChecksNear(root.position, std::numeric_limits<double>::infinity());
-    way_home_m = graph::shortestPaths(trail.graph(), current).distanceTo(GlobalGraph::home());
+    planner.trail_.follow(request, root.position, space);
+    way_home_m = planner.trail_.metres();
   }
 
   /// The root and what is left of the best branch of the last tree, its gains counted anew.
@@ -94,12 +84,27 @@ struct NbvpPlanner::Search {
     gains.emplace(*planner.credible_.of(request.map), planner.evaluator_, request.bounds);
     tree.emplace(root, params.distance_weight);
     std::size_t last = 0;
-    for (const Pose& pose : std::exchange(planner.branch_, {})) {
+    for (const Pose& pose : branchAhead()) {
       const Pose& before = tree->node(last).pose;
       if (distance(before, pose) < kSamePlace_m) continue;
       if (!space.isFree(before.position, pose.position)) break;
       last = add(last, pose);
     }
+  }
+
+  /// The nodes of the best branch of the last tree that the robot has not passed yet.
+  [[nodiscard]] Path branchAhead() const {
+    const Path& branch = planner.branch_;
+    if (branch.empty()) return {};
+    const double passed_m =
+        project(slice(branch, 0.0, planner.executed_m_), root.position).arc_m + kSamePlace_m;
+    Path ahead;
+    double arc_m = 0.0;
+    for (std::size_t i = 1; i < branch.size(); ++i) {
+      arc_m += distance(branch[i - 1], branch[i]);
+      if (arc_m > passed_m) ahead.push_back(branch[i]);
+    }
+    return ahead;
   }
 
   /// Algorithm 1.
@@ -175,18 +180,20 @@ struct NbvpPlanner::Search {
   }
 
   void executeFirstEdge() {
+    planner.branch_.clear();
     if (best == 0) return reportNothingLeft();
     for (const std::size_t number : tree->branchTo(best))
-      if (number != 0) planner.branch_.push_back(tree->node(number).pose);
+      planner.branch_.push_back(tree->node(number).pose);
+    planner.executed_m_ = tree->node(executedOf(best)).length_m;
+    planner.trail_.expect(toLine(slice(planner.branch_, 0.0, planner.executed_m_)), space);
     result.status = PlanStatus::kOk;
     result.kind = PathKind::kLocal;
     result.path = {request.pose};
     if (root.position != request.pose.position) result.path.push_back(root);
     for (const std::size_t number : tree->branchTo(executedOf(best)))
       if (number != 0) result.path.push_back(tree->node(number).pose);
-    planner.target_ = result.path.back();
     result.stats.best_gain = tree->node(best).gain_m3;
-    result.reason = "first of " + std::to_string(planner.branch_.size()) + " edges, " +
+    result.reason = "first of " + std::to_string(planner.branch_.size() - 1) + " edges, " +
                     std::to_string(std::lround(result.stats.best_gain)) + " m3 along them";
   }
 
@@ -209,18 +216,15 @@ struct NbvpPlanner::Search {
   }
 
   void goHome() {
-    const Polyline way = planner.trail_.findFreePath(current, GlobalGraph::home(), space);
+    const graph::Polyline way = planner.trail_.findWay(space);
     if (way.empty()) {
       result.status = PlanStatus::kNoPath;
       result.reason = "no free way along the trail leads home";
       return;
     }
-    Polyline line{root.position};
-    for (const Eigen::Vector3d& point : way)
-      if ((point - line.back()).norm() > 1e-6) line.push_back(point);
     result.status = PlanStatus::kOk;
     result.kind = PathKind::kHome;
-    result.path = pathFrom(request.pose, root.position, line);
+    result.path = pathFrom(request.pose, root.position, way);
     result.reason =
         "shortest way home, " + std::to_string(std::lround(lengthOf(result.path))) + " m";
   }
@@ -243,7 +247,6 @@ NbvpPlanner::NbvpPlanner(const NbvpParams& params, const RobotModel& robot, doub
       evaluator_(robot.sensor_models, resolution_m, map::GainCounting::kCone, params.cone_depth_m),
       credible_({params.closing_height_m, params.growth_m}),
       boxes_(robot.box_m),
-      trail_(GlobalGraphLimits{}),
       tried_(params.tried_radius_m) {}
 
 PlanResult NbvpPlanner::doPlan(const PlanRequest& request) {
@@ -271,11 +274,7 @@ PlanResult NbvpPlanner::doPlanHome(const PlanRequest& request) {
   return std::move(search.result);
 }
 
-PlannerGraph NbvpPlanner::graph() const {
-  GraphLayer trail = trail_.layer();
-  trail.name = "trail";
-  return {{tree_layer_, std::move(trail)}};
-}
+PlannerGraph NbvpPlanner::graph() const { return {{tree_layer_, trail_.layer()}}; }
 
 void NbvpPlanner::restore(const PlannerGraph& graph) {
   for (const GraphLayer& layer : graph.layers)
@@ -284,11 +283,9 @@ void NbvpPlanner::restore(const PlannerGraph& graph) {
 
 void NbvpPlanner::reset() {
   credible_ = map::CredibleMap({params_.closing_height_m, params_.growth_m});
-  trail_ = GlobalGraph(GlobalGraphLimits{});
-  trail_known_until_s_ = -std::numeric_limits<double>::infinity();
+  trail_ = {};
   tried_ = TriedTargets(params_.tried_radius_m);
   branch_.clear();
-  target_.reset();
   tree_layer_ = {};
 }
 

@@ -32,7 +32,7 @@ struct FrontierPlannerParams {
           "candidates are at least this far apart");
     field("candidates", candidates, Bounds{1, 1000}, "of which the best is flown to");
     field("gain_min_m3", gain_min_m3, Bounds{0.0, 1e5},
-          "less unknown volume is not worth flying to (frontier_utility only)", Audience::kUser);
+          "a place that sees less unknown volume is not worth flying to", Audience::kUser);
     field("frontier_voxels_min", frontier_voxels_min, Bounds{1, 100000},
           "fewer frontier voxels within a metre are no target");
     field("closing_height_m", closing_height_m, Bounds{0.0, 10.0},
@@ -49,8 +49,10 @@ struct FrontierPlannerParams {
   /// Rules between fields, for the tree's problem list.
   [[nodiscard]] std::vector<std::string> problems() const;
 
-  /// The defaults of "frontier_rrt_star".
-  [[nodiscard]] static FrontierPlannerParams withRrtStar();
+  /// The defaults of "frontier_nearest" and "frontier_rrt_star"; those of a new struct are
+  /// "frontier_utility"'s.
+  [[nodiscard]] static FrontierPlannerParams forNearest();
+  [[nodiscard]] static FrontierPlannerParams forRrtStar();
 
   /// What navigation to frontiers is to use.
   [[nodiscard]] navigation::NavigationParams navigation() const;

@@ -1,9 +1,6 @@
 #pragma once
 
-#include <limits>
 #include <memory>
-#include <optional>
-#include <vector>
 
 #include "spelunk/common/robot_model.h"
 #include "spelunk/map/configuration_space.h"
@@ -11,7 +8,7 @@
 #include "spelunk/map/volumetric_gain.h"
 #include "spelunk/planners/baselines/nbvp_params.h"
 #include "spelunk/planners/exploration_planner.h"
-#include "spelunk/planners/shared/global_graph.h"
+#include "spelunk/planners/shared/trail_home.h"
 #include "spelunk/planners/shared/tried_targets.h"
 
 namespace spelunk::planners::baselines {
@@ -55,11 +52,10 @@ class NbvpPlanner final : public ExplorationPlanner {
   map::GainEvaluator evaluator_;
   map::CredibleMap credible_;
   map::ConfigurationSpace boxes_;
-  GlobalGraph trail_;
-  double trail_known_until_s_ = -std::numeric_limits<double>::infinity();
+  TrailHome trail_;
   TriedTargets tried_;
-  std::vector<Pose> branch_;    ///< The best branch of the newest tree, its root left out.
-  std::optional<Pose> target_;  ///< Where its executed part ends.
+  Path branch_;              ///< The best branch of the newest tree, from its root on.
+  double executed_m_ = 0.0;  ///< Of it, that was proposed as a path.
   GraphLayer tree_layer_;
 };
 
