@@ -102,7 +102,8 @@ spelunk::evaluation::GoToLeg legFrom(const std::string& text,
   if (!values || !leg.navigation.problems().empty())
     throw OutsideError(
         "--go-to '" + text +
-        "': write it as x,y,z in metres, or x,y,z,method with adaptive, plain or plain_short");
+        "': write it as x,y,z in metres, or x,y,z,method with adaptive, rrt_star, plain or "
+        "plain_short");
   leg.target = {values->at(0), values->at(1), values->at(2)};
   return leg;
 }
@@ -195,7 +196,7 @@ int main(int argc, char** argv) {
   app.add_option("--start", options.start, "x,y,z,yaw; wins over the world's own");
   app.add_option("--go-to", options.go_to,
                  "x,y,z: fly there instead of exploring; several: one after the other; "
-                 "x,y,z,method says how (adaptive, plain, plain_short)")
+                 "x,y,z,method says how (adaptive, rrt_star, plain, plain_short)")
       ->take_all();
   app.add_option("--set", options.assignments, "section.name=value, any parameter")->take_all();
   app.add_flag("--list-params", list_params, "print all parameters and leave");
