@@ -14,11 +14,11 @@ from campaigns import measures
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent))
 import plot_mission
 
-DPI = 130
+DPI = 150
 # Okabe and Ito: told apart by the colour-blind; the dashes tell them apart in print.
 COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#333333")
 DASHES = ("-", (0, (6, 2)), (0, (2, 1.5)), (0, (7, 2, 1.5, 2)), (0, (4, 1, 1, 1, 1, 1)))
-SMOOTHING_S = 31
+SMOOTHING_MAX_S = 30
 FIRST_RATIO_S = 5  # before, both are a few cubic metres around the start
 
 
@@ -37,10 +37,10 @@ class Styles:
         return self.of[label][0]
 
 
-def smoothed(values, width):
-    """Running mean; the ends are held."""
-    padded = np.pad(values, width // 2, mode="edge")
-    return np.convolve(padded, np.ones(width) / width, "valid")[:values.size]
+def smoothed(values, half_width):
+    """Running mean over so many values to each side; the ends are held."""
+    width = 2 * half_width + 1
+    return np.convolve(np.pad(values, half_width, mode="edge"), np.ones(width) / width, "valid")
 
 
 def new_axes(columns=1, width=7.4, height=4.3):
@@ -78,7 +78,7 @@ def flown(comparison):
 
 def draw_volume(comparison, styles, path):
     """Explored volume over time under what is reachable."""
-    figure, ((axes,),) = new_axes(width=8.6, height=4.6)
+    figure, ((axes,),) = new_axes(width=9.8, height=4.7)
     times = np.arange(0.0, comparison.time_limit_s + 0.5)
     for series in flown(comparison):
         draw_band(axes, times, [measures.explored_at(run, times) for run in series.runs],
@@ -103,11 +103,12 @@ def draw_volume(comparison, styles, path):
 
 def draw_clearance(comparison, styles, path):
     """Distance to the nearest obstacle over time; None where no run measured it."""
-    figure, ((axes,),) = new_axes(width=8.6, height=3.6)
+    figure, ((axes,),) = new_axes(width=9.8, height=3.6)
     times = np.arange(0.0, comparison.time_limit_s + 0.5)
+    half_width = int(min(SMOOTHING_MAX_S, comparison.time_limit_s / 20) / 2)
     drawn = False
     for series in flown(comparison):
-        lines = [smoothed(measures.on_grid(run.clearance, "clearance_m", times), SMOOTHING_S)
+        lines = [smoothed(measures.on_grid(run.clearance, "clearance_m", times), half_width)
                  for run in series.runs if run.clearance is not None and len(run.clearance)]
         if lines:
             draw_band(axes, times, lines, series.label, styles, len(lines))
@@ -115,7 +116,7 @@ def draw_clearance(comparison, styles, path):
     if not drawn:
         plt.close(figure)
         return None
-    set_axes(axes, comparison.time_limit_s, f"{comparison.title}: running mean of {SMOOTHING_S} s",
+    set_axes(axes, comparison.time_limit_s, f"{comparison.title}: running mean of {2 * half_width + 1} s",
              "distance to the nearest\nobstacle [m]")
     axes.legend(loc="best", fontsize=9, framealpha=0.9)
     return finish(figure, path)
@@ -133,7 +134,7 @@ def draw_ratios(comparison, styles, path):
              if kind in comparison.best_possible]
     if not known:
         return None
-    figure, axes = new_axes(len(known), width=8.6 if len(known) == 1 else 5.6, height=3.8)
+    figure, axes = new_axes(len(known), width=9.8 if len(known) == 1 else 6.2, height=3.9)
     times = np.arange(FIRST_RATIO_S, comparison.time_limit_s + 0.5)
     for panel, (kind, name) in zip(axes[0], known):
         for series in flown(comparison):
@@ -151,7 +152,7 @@ def draw_differences(comparison, pairs, path):
     pairs = [pair for pair in pairs if pair.has_interval]
     if not pairs:
         return None
-    figure, ((axes,),) = new_axes(width=8.6, height=1.5 + 0.42 * len(pairs))
+    figure, ((axes,),) = new_axes(width=9.8, height=1.5 + 0.42 * len(pairs))
     for row, pair in enumerate(reversed(pairs)):
         axes.plot([pair.low, pair.high], [row, row], color="#0072B2", lw=3, solid_capstyle="butt")
         axes.plot(pair.mean, row, "o", color="#0072B2", mec="white", ms=9)
@@ -173,7 +174,7 @@ def draw_map(series, path):
     layers, frame = plot_mission.read_plan_view(run.folder / ".plan_view")
     left, right, bottom, top = plot_mission.known_window(layers, times["x_m"], times["y_m"], frame)
     width = 7.4
-    height = float(np.clip(width * (top - bottom) / (right - left), 2.4, 9.0)) + 1.1
+    height = float(np.clip(0.76 * width * (top - bottom) / (right - left), 2.4, 8.0)) + 1.0
     figure, ((axes,),) = new_axes(width=width, height=height)
     way = plot_mission.draw_map(axes, layers, frame, times)
     bar = figure.colorbar(way, ax=axes, fraction=0.04, pad=0.02, aspect=34)

@@ -9,6 +9,7 @@ import scipy.stats
 SHARES = (0.5, 0.8, 0.9, 0.95)
 CONFIDENCE = 0.95
 RESAMPLES = 9999
+SEEDS_MIN = 5  # fewer differences give intervals that mean nothing
 BOOTSTRAP_SEED = 1
 MOVED_M = 0.02  # a second in which the robot went farther counts as navigation
 
@@ -82,7 +83,7 @@ class Paired:
 
 def interval_of_mean(differences):
     """Bootstrap interval, bias corrected and accelerated; by percentiles where that is undefined."""
-    if len(differences) < 2 or np.ptp(differences) == 0:
+    if len(differences) < SEEDS_MIN or np.ptp(differences) == 0:
         return np.nan, np.nan
     for method in ("BCa", "percentile"):
         with warnings.catch_warnings():

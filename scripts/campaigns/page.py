@@ -3,6 +3,7 @@ import base64
 import pathlib
 
 import jinja2
+import markupsafe
 import numpy as np
 
 from campaigns import figures, measures
@@ -17,14 +18,15 @@ def number(value, digits=0):
 
 
 def spread(values, digits=0):
-    """Mean and range; the value alone where there is one."""
+    """Mean and, below it, the range; the value alone where there is one."""
     values = np.asarray(values, dtype=float)
     if not values.size:
         return "–"
     if values.size == 1:
         return number(values[0], digits)
-    return f"{number(values.mean(), digits)} ({number(values.min(), digits)} to " \
-           f"{number(values.max(), digits)})"
+    return markupsafe.Markup(f"{number(values.mean(), digits)}<br><small>"
+                             f"{number(values.min(), digits)} to {number(values.max(), digits)}"
+                             "</small>")
 
 
 def time_to_share(series, volume_m3):
@@ -196,6 +198,6 @@ def render(results, folder):
         titles=results.titles or ("Campaign",), kinds=kinds_of(results),
         flown=len(results.runs), missing=results.missing,
         shares=[f"{100 * share:g}" for share in measures.SHARES],
-        resamples=measures.RESAMPLES,
+        resamples=measures.RESAMPLES, seeds_min=measures.SEEDS_MIN,
         sections=[section(comparison, pictures) for comparison in results.comparisons],
         missions=[mission_row(run) for run in results.runs])

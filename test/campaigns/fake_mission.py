@@ -12,7 +12,7 @@ import signal
 import sys
 import time
 
-PLANNERS = ("steady", "brisk", "stranding", "crashing", "hanging", "refusing", "mute")
+PLANNERS = ("steady", "brisk", "stranding", "crashing", "hanging", "refusing", "mute", "informed")
 
 
 def parsed():

@@ -2,10 +2,12 @@
 import json
 import os
 import pathlib
+import shutil
 import subprocess
 import sys
 import tempfile
 import unittest
+import unittest.mock
 
 import yaml
 
@@ -13,6 +15,7 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 SCRIPTS = ROOT / "scripts"
 FAKE_MISSION = pathlib.Path(__file__).resolve().with_name("fake_mission.py")
 sys.path.insert(0, str(SCRIPTS))
+from campaigns import description, fly
 
 
 class InTemporaryFolder(unittest.TestCase):
@@ -40,18 +43,29 @@ class InTemporaryFolder(unittest.TestCase):
         path.write_text(yaml.safe_dump(content))
         return path
 
-    def command(self, description, *extra, out=None):
-        return [sys.executable, "-m", "campaigns.front", str(description), "--out",
+    def command(self, path, *extra, out=None):
+        return [sys.executable, "-m", "campaigns.front", str(path), "--out",
                 str(out or self.out), "--mission", str(FAKE_MISSION), "--jobs", "2", *extra]
 
-    def campaign(self, description, *extra, out=None):
+    def campaign(self, path, *extra, out=None):
         """Flies to the end; the completed process."""
-        return subprocess.run(self.command(description, *extra, out=out), env=self.environment,
+        return subprocess.run(self.command(path, *extra, out=out), env=self.environment,
                               capture_output=True, text=True, check=False, timeout=120)
 
-    def start(self, description, *extra):
+    def fly_without_snakemake(self, path):
+        """The same folders as `campaign`, faster: for what only reads them."""
+        with unittest.mock.patch.dict(os.environ, self.environment):
+            for mission in description.read(path).missions:
+                folder = self.out / "missions" / mission.name
+                folder.mkdir(parents=True)
+                fly.fly(str(FAKE_MISSION), fly.order_of(mission, {}), folder)
+        kept = self.out / "descriptions"
+        kept.mkdir(exist_ok=True)
+        shutil.copy(path, kept)
+
+    def start(self, path, *extra):
         """Starts to fly; the process leads a session of its own."""
-        process = subprocess.Popen(self.command(description, *extra), env=self.environment,
+        process = subprocess.Popen(self.command(path, *extra), env=self.environment,
                                    stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
         self.addCleanup(process.communicate)
         self.addCleanup(process.kill)
