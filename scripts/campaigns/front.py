@@ -8,6 +8,7 @@ all flown, 1 some mission crashed, hung or was refused, or the machine failed, 2
 """
 import argparse
 import fcntl
+import json
 import os
 import pathlib
 import shutil
@@ -103,22 +104,13 @@ def remove_failed(campaign, missions):
             shutil.rmtree(missions / name)
 
 
-def keep_description(options):
-    """A copy beside the results, from which the report knows what is missing."""
-    kept = options.out / "descriptions"
-    kept.mkdir(exist_ok=True)
-    if options.file.resolve() != (kept / options.file.name).resolve():
-        shutil.copyfile(options.file, kept / options.file.name)
-
-
 def snakemake(campaign, options):
     """The command that flies all that is missing."""
-    meshes = ", ".join(f"{name}: {path}" for name, path in campaign.meshes.items())
     return ["setpriv", "--pdeathsig", "KILL", "snakemake", "--snakefile", str(SNAKEFILE),
             "--directory", str(options.out), "--cores", str(options.jobs), "--scheduler", "greedy",
             "--rerun-triggers", "mtime", "--ignore-incomplete", "--nolock",
             "--config", f"description={options.file.resolve()}",
-            f"mission={options.mission.resolve()}", f"meshes={{{meshes}}}"]
+            f"mission={options.mission.resolve()}", f"meshes={json.dumps(campaign.meshes)}"]
 
 
 def end(process):
@@ -198,7 +190,6 @@ def flown(options):
         remove_unfinished(missions)
         if options.retry_failed:
             remove_failed(campaign, missions)
-        keep_description(options)
         display = progress.Display(campaign, missions, options.jobs)
         with open(options.out / "snakemake.log", "wb") as log:
             code = watched(snakemake(campaign, options), display, log)

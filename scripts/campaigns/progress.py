@@ -1,6 +1,7 @@
 """How far a campaign is and how long it will take."""
 import json
 import math
+import shutil
 import sys
 import time
 
@@ -77,8 +78,9 @@ class Display:
         if sys.stdout.isatty():
             left = time_left(self.campaign.missions, outcomes, self.jobs)
             rest = "" if left is None else f", about {clock(left)} left"
-            print(f"\r\x1b[K{self.count(len(outcomes))} {kinds_text(outcomes)}; "
-                  f"{clock(time.monotonic() - self.begin)} gone{rest}", end="", flush=True)
+            line = f"{self.count(len(outcomes))} {kinds_text(outcomes)}; " \
+                   f"{clock(time.monotonic() - self.begin)} gone{rest}"
+            print(f"\r\x1b[K{line[:shutil.get_terminal_size().columns - 1]}", end="", flush=True)
 
     def count(self, done):
         return f"[{done}/{len(self.campaign.missions)}]"

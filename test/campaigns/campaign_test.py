@@ -178,7 +178,7 @@ class Checks(support.InTemporaryFolder):
 
 class Cluster(support.InTemporaryFolder):
     def test_snakemake_alone_flies_the_same_campaign_through_a_submit_command(self):
-        description = self.describe()
+        description = self.describe(seeds=[1])
         command = ["snakemake", "--snakefile", str(support.SCRIPTS / "campaigns" / "Snakefile"),
                    "--directory", str(self.out), "--cluster", "bash", "--jobs", "2",
                    "--latency-wait", "5", "--max-status-checks-per-second", "20",
