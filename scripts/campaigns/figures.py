@@ -19,6 +19,7 @@ DPI = 150
 COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#333333")
 DASHES = ("-", (0, (6, 2)), (0, (2, 1.5)), (0, (7, 2, 1.5, 2)), (0, (4, 1, 1, 1, 1, 1)))
 SMOOTHING_MAX_S = 30
+FAR_ABOVE = 2.5  # what is reachable is drawn up to so many times what was explored
 FIRST_RATIO_S = 5  # before, both are a few cubic metres around the start
 
 
@@ -91,13 +92,16 @@ def draw_volume(comparison, styles, path):
     set_axes(axes, comparison.time_limit_s, f"{comparison.title}: mean and range over the seeds",
              "explored volume [m³]")
     reachable = comparison.reachable_m3
+    explored = max(run.summary["explored_volume_m3"] for series in flown(comparison)
+                   for run in series.runs)
+    is_shown = reachable < FAR_ABOVE * explored
     axes.axhline(reachable, color="#333333", lw=1, ls=(0, (5, 3)),
-                 label=f"reachable, {reachable:,.0f} m³")
-    axes.set_ylim(top=1.08 * reachable)
+                 label=f"reachable, {reachable:,.0f} m³{'' if is_shown else ' (far above)'}")
+    axes.set_ylim(top=1.08 * reachable if is_shown else 1.3 * explored)
     share = axes.secondary_yaxis("right", functions=(lambda volume: 100 * volume / reachable,
                                                      lambda percent: percent * reachable / 100))
     share.set_ylabel("share of the reachable volume [%]")
-    axes.legend(loc="lower right", fontsize=9, framealpha=0.9)
+    axes.legend(loc="best", fontsize=9, framealpha=0.9)
     return finish(figure, path)
 
 

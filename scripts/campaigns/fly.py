@@ -111,6 +111,13 @@ def fly(executable, order, folder):
     (folder / "outcome.json").write_text(json.dumps(record, indent=2) + "\n")
 
 
+def settle(folder):
+    """Brings the files to the disk, so that a power cut cannot leave a complete folder of empty files."""
+    for path in folder.iterdir():
+        with open(path, "rb") as file:
+            os.fsync(file.fileno())
+
+
 def interrupt(number, _frame):
     raise Interrupted(signal.Signals(number).name)
 
@@ -128,6 +135,7 @@ def main():
         folder.mkdir(parents=True)
         require_space(folder)
         fly(options.executable, options.order, folder)
+        settle(folder)
         folder.rename(options.out)
     except (MachineError, OSError, Interrupted) as error:
         print(f"campaign: {options.out.name}: {error}", file=sys.stderr)

@@ -9,7 +9,7 @@ import time
 import unittest
 
 import support
-from campaigns import fly
+from campaigns import fly, front, table
 
 WAIT_S = 60
 
@@ -88,7 +88,7 @@ class Interruption(support.InTemporaryFolder):
         return process
 
     def check_resumed(self):
-        """The rest is flown, what was finished is not, and the table is that of an undisturbed run."""
+        """The rest is flown, what was finished is not, and the files are those of a run straight through."""
         finished = sorted(self.outcomes())
         self.assertLess(len(finished), 6)
         resumed = self.campaign(self.description)
@@ -97,11 +97,15 @@ class Interruption(support.InTemporaryFolder):
         begun = self.flights("begin")
         for name in finished:
             self.assertEqual(begun.count(name), 1, name)
-        through = self.campaign(self.description, out=self.folder / "through")
-        self.assertEqual(through.returncode, 0, through.stderr)
-        for path in sorted(self.folder.glob("through/missions/*/*.csv")) + \
-                [self.folder / "through" / "campaign.csv"]:
-            here = self.out / path.relative_to(self.folder / "through")
+        straight = self.folder / "straight"
+        self.out.rename(self.folder / "resumed")
+        self.fly_without_snakemake(self.description)
+        self.out.rename(straight)
+        (straight / "campaign.csv").write_text(table.text_of(straight / "missions"))
+        compared = [*straight.glob("missions/*/*.csv"), straight / "campaign.csv"]
+        self.assertEqual(len(compared), 6 * 3 + 1)
+        for path in compared:
+            here = self.folder / "resumed" / path.relative_to(straight)
             self.assertTrue(filecmp.cmp(path, here, shallow=False), path)
 
     def test_killed_hard_in_the_middle_it_leaves_nothing_running_and_goes_on(self):
@@ -118,11 +122,13 @@ class Interruption(support.InTemporaryFolder):
         self.assertEqual(self.half_flown(), [])
         self.check_resumed()
 
-    def test_a_mission_killed_with_its_job_is_flown_again(self):
-        leftover = self.out / "missions" / ".room__aerial__steady__default__10__001.part.host.7"
-        leftover.mkdir(parents=True)
-        (leftover / "timeline.csv").write_text("t_s,expl")
-        self.check_resumed()
+    def test_half_flown_folders_are_removed_and_others_kept(self):
+        missions = self.out / "missions"
+        for name in (".room__aerial__steady__default__10__001.part.host.7", "room__a"):
+            (missions / name).mkdir(parents=True)
+            (missions / name / "timeline.csv").write_text("t_s,expl")
+        front.remove_unfinished(missions)
+        self.assertEqual([path.name for path in missions.iterdir()], ["room__a"])
 
 
 class Machine(support.InTemporaryFolder):

@@ -15,25 +15,44 @@ class Real(support.InTemporaryFolder):
                 "--mission", os.environ["SPELUNK_MISSION"], *extra]
 
     def test_two_runs_give_the_same_bytes_and_a_report(self):
-        path = support.ROOT / "config" / "campaigns" / "small.yaml"
-        for out in ("first", "second"):
-            answer = self.campaign(path, out=self.folder / out)
-            self.assertEqual(answer.returncode, 0, answer.stderr + answer.stdout)
-            self.assertIn("4 of 4 missions flown: 4 finished", answer.stdout)
-        first = self.folder / "first"
-        compared = [first / "campaign.csv", *first.glob("missions/*/timeline.csv"),
-                    *first.glob("missions/*/clearance.csv"), *first.glob("missions/*/map.bt")]
-        self.assertEqual(len(compared), 13)
+        self.fly(support.ROOT / "config" / "campaigns" / "small.yaml", "first", 4)
+        self.fly(self.describe(planners=["gbplanner", "informed"], seeds=[2], time_limits_s=[40]),
+                 "second", 2)
+        second = self.folder / "second"
+        compared = [*second.glob("missions/*/timeline.csv"), *second.glob("missions/*/map.bt"),
+                    *second.glob("missions/*/clearance.csv")]
+        self.assertEqual(len(compared), 6)
         for file in compared:
-            self.assertTrue(filecmp.cmp(file, self.folder / "second" / file.relative_to(first),
+            self.assertTrue(filecmp.cmp(file, self.folder / "first" / file.relative_to(second),
                                         shallow=False), file)
-        subprocess.run([sys.executable, "-m", "campaigns.report", str(first)], check=True,
+        rows = (self.folder / "first" / "campaign.csv").read_text().splitlines()
+        again = (second / "campaign.csv").read_text().splitlines()
+        self.assertEqual((len(rows), len(again)), (5, 3))
+        self.assertLess(set(again), set(rows))
+        self.check_report(self.folder / "first")
+
+    def fly(self, path, out, missions):
+        answer = self.campaign(path, out=self.folder / out)
+        self.assertEqual(answer.returncode, 0, answer.stderr + answer.stdout)
+        self.assertIn(f"{missions} of {missions} missions flown: {missions} finished", answer.stdout)
+
+    def check_report(self, folder):
+        subprocess.run([sys.executable, "-m", "campaigns.report", str(folder)], check=True,
                        env=self.environment, timeout=120)
-        pictures = sorted(picture.name for picture in (first / "report").glob("*.png"))
+        pictures = sorted(picture.name for picture in (folder / "report").glob("*.png"))
         self.assertEqual(pictures, ["room__aerial__40__clearance.png",
                                     "room__aerial__40__map__gbplanner__default.png",
                                     "room__aerial__40__map__informed__default.png",
                                     "room__aerial__40__volume.png"])
+
+    def test_what_the_executable_refuses_is_said_before_anything_flies(self):
+        answer = self.campaign(self.describe(planners=["gbplaner", "informed"],
+                                             robots=["aerial", "walker"],
+                                             settings={"map.resolutoin_m": 0.1}))
+        self.assertEqual(answer.returncode, 2)
+        for part in ("\"gbplaner\" is not known; choose one of: gbplanner", "resolutoin_m",
+                     "is for robots that fly"):
+            self.assertIn(part, answer.stderr)
 
 
 if __name__ == "__main__":
