@@ -147,7 +147,7 @@ def draw_ratios(comparison, styles, path):
                       len(series.runs))
         set_axes(panel, comparison.time_limit_s, f"achieved / {name}", f"share of the {name} [-]")
         panel.axhline(1.0, color="#333333", lw=1, ls=(0, (5, 3)))
-        panel.legend(loc="lower right", fontsize=9, framealpha=0.9)
+        panel.legend(loc="best", fontsize=9, framealpha=0.9)
     return finish(figure, path)
 
 
@@ -169,18 +169,29 @@ def draw_differences(comparison, pairs, path):
     return finish(figure, path)
 
 
-def draw_map(series, path):
-    """Map and way of the median run; None where the run kept no plan view."""
-    run = measures.median_run(series)
+def plan_of(run):
+    """Layers and frame of a run's map and its timeline; None where it kept no plan view."""
     if not (run.folder / ".plan_view").exists():
         return None
     times, _ = plot_mission.read_timeline(run.folder / "timeline.csv")
-    layers, frame = plot_mission.read_plan_view(run.folder / ".plan_view")
-    left, right, bottom, top = plot_mission.known_window(layers, times["x_m"], times["y_m"], frame)
+    return (*plot_mission.read_plan_view(run.folder / ".plan_view"), times)
+
+
+def common_window(plans):
+    """Limits in metres around all that any of the maps knows."""
+    windows = np.array([plot_mission.known_window(layers, times["x_m"], times["y_m"], frame)
+                        for layers, frame, times in plans])
+    return (windows[:, 0].min(), windows[:, 1].max(), windows[:, 2].min(), windows[:, 3].max())
+
+
+def draw_map(plan, window, path):
+    """Map and way of one run, in a window that all maps of a comparison share."""
+    layers, frame, times = plan
+    left, right, bottom, top = window
     width = 7.4
     height = float(np.clip(0.76 * width * (top - bottom) / (right - left), 2.4, 8.0)) + 1.0
     figure, ((axes,),) = new_axes(width=width, height=height)
-    way = plot_mission.draw_map(axes, layers, frame, times)
+    way = plot_mission.draw_map(axes, layers, frame, times, window)
     bar = figure.colorbar(way, ax=axes, fraction=0.04, pad=0.02, aspect=34)
     bar.set_label("mission time [s]")
     return finish(figure, path)

@@ -139,18 +139,19 @@ class Pictures:
         return self.embedded(draw(comparison, *arguments, path), text)
 
     def maps(self, comparison):
-        """Median run of each series."""
-        found = []
-        for series in figures.flown(comparison):
-            run = measures.median_run(series)
-            text = f"{series.label}, seed {run.seed}: " \
-                   f"{number(run.summary['explored_volume_m3'])} m³ explored"
-            place = f"{comparison.name}__map__{run.outcome['planner']}__" \
-                    f"{run.outcome['parameter_set']}.png"
-            picture = self.embedded(figures.draw_map(series, self.folder / place), text)
-            if picture:
-                found.append(picture)
-        return found
+        """Median run of each series, all in the same window."""
+        runs = {series.label: measures.median_run(series) for series in figures.flown(comparison)}
+        plans = {label: figures.plan_of(run) for label, run in runs.items()}
+        plans = {label: plan for label, plan in plans.items() if plan}
+        window = figures.common_window(plans.values()) if plans else None
+        return [self.map_of(comparison, label, runs[label], plan, window)
+                for label, plan in plans.items()]
+
+    def map_of(self, comparison, label, run, plan, window):
+        text = f"{label}, seed {run.seed}: {number(run.summary['explored_volume_m3'])} m³ explored"
+        name = f"{comparison.name}__map__{run.outcome['planner']}__" \
+               f"{run.outcome['parameter_set']}.png"
+        return self.embedded(figures.draw_map(plan, window, self.folder / name), text)
 
 
 def section(comparison, pictures):
