@@ -1,6 +1,14 @@
 #include "spelunk/common/robot_model.h"
 
+#include <algorithm>
+
 namespace spelunk {
+
+double longestRange(const RobotModel& robot) {
+  double range = 0.0;
+  for (const SensorModel& sensor : robot.sensor_models) range = std::max(range, sensor.range_max_m);
+  return range;
+}
 
 RobotKind kindOf(const RobotModel& robot) {
   return robot.kind == "legged" ? RobotKind::kLegged : RobotKind::kAerial;

@@ -13,7 +13,7 @@ constexpr double kEnd_m = 1e-6;
 
 std::optional<navigation::NavigationQuery> Mission::Impl::goToQuery(const Eigen::Vector3d& point) {
   if (!input.latest()) return std::nullopt;
-  if (startProblem().empty()) takeOff();  // what the robot's box stands in is free
+  if (!home_graph && startProblem().empty()) markStandFree();
   navigation::NavigationQuery query;
   query.map = map.freeze();
   query.start = input.latest()->pose;

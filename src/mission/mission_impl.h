@@ -95,6 +95,8 @@ struct Mission::Impl {
   [[nodiscard]] MissionRecord record(const planners::PlannerGraph& graph) const;
   void takeUp(const MissionRecord& record);
 
+  /// What the robot stands in, and some room around it, is free where it is unknown.
+  void markStandFree();
   void takeOff();
 
   // --- Points from outside (mission_goto.cpp, mission_goto_plans.cpp).

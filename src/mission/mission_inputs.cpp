@@ -117,17 +117,20 @@ std::string Mission::Impl::startProblem() {
   return "";
 }
 
+void Mission::Impl::markStandFree() {
+  const Eigen::Vector3d& position = input.latest()->pose.position;
+  const Eigen::Vector3d room = params.start_clearance_m * Eigen::Vector3d(1.0, 1.0, 0.5);
+  AxisAlignedBox stand = boxAround(position, robot.box_m + 2.0 * room);
+  if (terrain) stand.min.z() = position.z() - 0.5 * robot.box_m.z();  // below it there is ground
+  map.markFree(stand);
+}
+
 void Mission::Impl::takeOff() {
   const Pose pose = input.latest()->pose;
   if (!home_graph) {
     home_graph.emplace(pose, robot.box_m, map.params().resolution_m, footingCheck());
-    const Eigen::Vector3d room = params.start_clearance_m * Eigen::Vector3d(1.0, 1.0, 0.5);
-    AxisAlignedBox start = boxAround(pose.position, robot.box_m + 2.0 * room);
-    if (terrain) {
-      start.min.z() = pose.position.z() - 0.5 * robot.box_m.z();  // below it there is ground
-      terrain->assumeGroundUnder(T_world_base);
-    }
-    map.markFree(start);
+    markStandFree();
+    if (terrain) terrain->assumeGroundUnder(T_world_base);
     stamped_trail.push_back({input.latest()->stamp_s, pose});
   }
   if (!started_s) started_s = now;

@@ -57,6 +57,9 @@ struct RobotModel {
 };
 
 [[nodiscard]] RobotKind kindOf(const RobotModel& robot);
+
+/// How far the farthest-seeing sensor reaches, metres; 0 without sensors.
+[[nodiscard]] double longestRange(const RobotModel& robot);
 [[nodiscard]] MotionLimits limitsOf(const RobotModel& robot);
 
 /// Distance to a standstill from `speed_mps`, reaction time included.

@@ -166,7 +166,8 @@ class Mission {
   /// stands ready, and even the straight way there and home fits the endurance.
   [[nodiscard]] Answer mayGoTo(const Eigen::Vector3d& point);
   /// What navigation is to be asked for a way from here to a point (world frame, where the robot's
-  /// base is to be); none before the first good odometry. The caller sets `rng`.
+  /// base is to be); none before the first good odometry. What a robot at its start stands in
+  /// counts as free from then on. The caller sets `rng`.
   [[nodiscard]] std::optional<navigation::NavigationQuery> goToQuery(const Eigen::Vector3d& point);
   /// Flies to the goal of a query, beginning with the path it was answered by; only if mayGoTo()
   /// and only if the answer holds a path. Only what lies in known free space is flown, checked like

@@ -214,9 +214,7 @@ struct FrontierPlanner::Search {
         is_over_budget = true;
         continue;
       }
-      Path path = toPath(candidate.way, {root, request.pose.yaw});
-      if ((root - request.pose.position).norm() > 0.0) path.insert(path.begin(), request.pose);
-      path.front() = request.pose;
+      Path path = pathFrom(request.pose, root, candidate.way);
       planner.search_layer_ = {"search", {}, candidate.trees.edges};
       for (const Eigen::Vector3d& vertex : candidate.trees.vertices)
         planner.search_layer_.vertices.push_back({vertex, 0.0, false});

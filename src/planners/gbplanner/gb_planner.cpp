@@ -26,12 +26,6 @@ GlobalGraphLimits limitsFrom(const GbPlannerParams& params) {
   return limits;
 }
 
-double longestRange(const RobotModel& robot) {
-  double range = 0.0;
-  for (const SensorModel& sensor : robot.sensor_models) range = std::max(range, sensor.range_max_m);
-  return range;
-}
-
 }  // namespace
 
 /// State shared by the steps of one plan.
@@ -189,7 +183,7 @@ struct GbPlanner::Search {
     way = shortened(way, view.space(), params.shortcut_length_max_m);
     result.status = PlanStatus::kOk;
     result.kind = PathKind::kHome;
-    result.path = startingAtPose(way);
+    result.path = pathFrom(request.pose, root, way);
     result.reason =
         "shortest way home, " + std::to_string(std::lround(lengthOf(result.path))) + " m";
   }
@@ -199,14 +193,6 @@ struct GbPlanner::Search {
     constexpr double kSamePlace = 1e-6;
     if (!way.empty() && (way.front() - root).norm() > kSamePlace) way.insert(way.begin(), root);
     return way;
-  }
-
-  /// The path of a line that begins at the root; first out of what blocks the start, if anything.
-  [[nodiscard]] Path startingAtPose(const Polyline& line) const {
-    Path path = toPath(line, {root, request.pose.yaw});
-    if ((root - request.pose.position).norm() > 0.0) path.insert(path.begin(), request.pose);
-    path.front() = request.pose;
-    return path;
   }
 
   void reportNothingLeft(const GlobalPlan& plan) {
@@ -251,7 +237,7 @@ struct GbPlanner::Search {
   void finish(const Polyline& line, PathKind kind, const Eigen::Vector3d& target) {
     result.status = PlanStatus::kOk;
     result.kind = kind;
-    result.path = startingAtPose(line);
+    result.path = pathFrom(request.pose, root, line);
     planner.proposal_ = Proposal{kind, target, line.back()};
     if (kind == PathKind::kLocal) planner.global_.addPath(line, view.space());
   }

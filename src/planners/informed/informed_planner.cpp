@@ -28,12 +28,6 @@ navigation::NavigationParams navigationParams(const InformedParams& params) {
   return navigation;
 }
 
-double longestRange(const RobotModel& robot) {
-  double range = 0.0;
-  for (const SensorModel& sensor : robot.sensor_models) range = std::max(range, sensor.range_max_m);
-  return range;
-}
-
 GraphLayer layerOf(const navigation::NavigationTrees& trees) {
   GraphLayer layer{"search", {}, trees.edges};
   for (const Eigen::Vector3d& vertex : trees.vertices)
@@ -125,14 +119,6 @@ struct InformedPlanner::Search {
     planner.proposal_ = std::move(proposal);
   }
 
-  /// The path of a line that begins at the root; first out of what blocks the start, if anything.
-  [[nodiscard]] Path startingAtPose(const Polyline& line) const {
-    Path path = toPath(line, {root, request.pose.yaw});
-    if ((root - request.pose.position).norm() > 0.0) path.insert(path.begin(), request.pose);
-    path.front() = request.pose;
-    return path;
-  }
-
   /// The contextual reasoner R_cr: is there time for a way of this length and then home, back along
   /// it and by the graph, else as the motion planner finds it?
   [[nodiscard]] bool fitsBudget(double length_m, const Eigen::Vector3d& end) {
@@ -170,8 +156,8 @@ struct InformedPlanner::Search {
     if (!choice) return reportNothingLeft(turn);
     planner.search_layer_ = layerOf(choice->candidate.trees);
     result.stats.vertices += static_cast<int>(choice->candidate.trees.vertices.size());
-    propose({startingAtPose(choice->candidate.way), choice->kind, choice->candidate.gain_m3,
-             choice->candidate.sample.voxel});
+    propose({pathFrom(request.pose, root, choice->candidate.way), choice->kind,
+             choice->candidate.gain_m3, choice->candidate.sample.voxel});
     planner.visits_.expect({choice->candidate.sample.voxel, choice->candidate.sample.place,
                             choice->candidate.gain_m3, request.time_s});
     result.reason = std::string("to a frontier sample in a ") + toText(region) + ", " +
@@ -273,7 +259,7 @@ struct InformedPlanner::Search {
   void finishHome(const Polyline& way) {
     result.status = PlanStatus::kOk;
     result.kind = PathKind::kHome;
-    result.path = startingAtPose(way);
+    result.path = pathFrom(request.pose, root, way);
     result.reason = "way home, " + std::to_string(std::lround(lengthOf(result.path))) + " m";
   }
 

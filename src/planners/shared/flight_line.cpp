@@ -16,6 +16,13 @@ Path toPath(const graph::Polyline& line, const Pose& start) {
   return path;
 }
 
+Path pathFrom(const Pose& pose, const Eigen::Vector3d& root, const graph::Polyline& line) {
+  Path path = toPath(line, {root, pose.yaw});
+  if (root != pose.position) path.insert(path.begin(), pose);
+  path.front() = pose;
+  return path;
+}
+
 graph::Polyline toLine(const Path& path) {
   graph::Polyline line;
   for (const Pose& pose : path) line.push_back(pose.position);
