@@ -1,8 +1,8 @@
 #!/usr/bin/python3
 """Stands in for the mission executable: the planner's name says how the mission goes.
 
-Each flight appends "begin NAME" and "end NAME" to the file $FAKE_FLIGHTS. A crashing, hanging or mute
-planner is mended where the file $FAKE_MENDED exists. `--set fake.wall_s=2` takes two seconds.
+Each flight appends "begin NAME" and "end NAME" to the file $FAKE_FLIGHTS. Whatever planner is bad becomes
+good where the file $FAKE_MENDED exists; a patient one waits for it. `--set fake.wall_s=2` takes two seconds.
 """
 import argparse
 import json
@@ -12,7 +12,8 @@ import signal
 import sys
 import time
 
-PLANNERS = ("steady", "brisk", "stranding", "crashing", "hanging", "refusing", "mute", "informed")
+PLANNERS = ("steady", "brisk", "stranding", "crashing", "hanging", "refusing", "mute", "patient",
+            "informed")
 
 
 def parsed():
@@ -46,7 +47,7 @@ def misbehave(options):
     if options.planner == "crashing":
         print("about to touch address zero", flush=True)
         os.kill(os.getpid(), signal.SIGSEGV)
-    if options.planner == "hanging":
+    if options.planner in ("hanging", "patient"):
         time.sleep(1000)
     if options.planner == "refusing":
         print("mission: nothing to fly in", file=sys.stderr)
