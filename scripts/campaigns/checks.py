@@ -21,11 +21,12 @@ def world_problems(campaign, share):
     for world in sorted(used - set(known) - set(campaign.meshes)):
         problems.append(f"world \"{world}\" is not in {share / 'worlds'}; give its mesh with "
                         f"--world {world}=PATH or choose one of: {', '.join(known)}")
-    for name, path in sorted(campaign.meshes.items()):
+    for name, text in sorted(campaign.meshes.items()):
+        path = pathlib.Path(text)
         if name not in used:
             problems.append(f"--world {name}: no mission flies there; worlds: "
                             f"{', '.join(sorted(used))}")
-        elif pathlib.Path(path).suffix.lower() not in MESH_SUFFIXES or not pathlib.Path(path).is_file():
+        elif path.suffix.lower() not in MESH_SUFFIXES or not path.is_file():
             problems.append(f"world \"{name}\": {path} is no mesh ({' '.join(MESH_SUFFIXES)})")
     return problems
 

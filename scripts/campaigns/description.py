@@ -117,7 +117,8 @@ class Reader:
             return []
         for item in value:
             if not NAME.fullmatch(str(item)) or "__" in str(item):
-                self.problems.append(f"{where}: \"{item}\" is no name (letters, digits, single _ . -)")
+                self.problems.append(f"{where}: \"{item}\" is no name (letters, digits, single "
+                                     "_ . -)")
         return [str(item) for item in value]
 
     def is_positive(self, value, where):
@@ -140,7 +141,8 @@ class Reader:
         if isinstance(value, list) and value and all(type(item) is int and item >= 0
                                                      for item in value):
             return value
-        self.problems.append(f"{where}: must be first-last, such as 1-15, or a list of whole numbers")
+        self.problems.append(f"{where}: must be first-last, such as 1-15, or a list of whole "
+                             "numbers")
         return []
 
     def parameter_sets(self, value):
@@ -159,8 +161,8 @@ class Reader:
                 continue
             for key in settings:
                 if not SET_KEY.fullmatch(str(key)):
-                    self.problems.append(f"parameter_sets.{name}: \"{key}\" is no parameter's name; "
-                                         "write section.name")
+                    self.problems.append(f"parameter_sets.{name}: \"{key}\" is no parameter's "
+                                         "name; write section.name")
             sets[name] = tuple(sorted((str(key), value_text(item))
                                       for key, item in settings.items()))
         return sets

@@ -120,7 +120,8 @@ def draw_clearance(comparison, styles, path):
     if not drawn:
         plt.close(figure)
         return None
-    set_axes(axes, comparison.time_limit_s, f"{comparison.title}: running mean of {2 * half_width + 1} s",
+    set_axes(axes, comparison.time_limit_s,
+             f"{comparison.title}: running mean of {2 * half_width + 1} s",
              "distance to the nearest\nobstacle [m]")
     axes.legend(loc="best", fontsize=9, framealpha=0.9)
     return finish(figure, path)
@@ -160,10 +161,12 @@ def draw_differences(comparison, pairs, path):
     for row, pair in enumerate(reversed(pairs)):
         axes.plot([pair.low, pair.high], [row, row], color="#0072B2", lw=3, solid_capstyle="butt")
         axes.plot(pair.mean, row, "o", color="#0072B2", mec="white", ms=9)
-    axes.set_yticks(range(len(pairs)), [f"{pair.first} − {pair.second}" for pair in reversed(pairs)])
+    axes.set_yticks(range(len(pairs)),
+                    [f"{pair.first} − {pair.second}" for pair in reversed(pairs)])
     axes.axvline(0, color="#333333", lw=1, ls=(0, (5, 3)))
     axes.set(title=f"{comparison.title}: difference by seed, mean and 95 % interval",
-             xlabel="explored volume at the end, first − second [m³]", ylim=(-0.7, len(pairs) - 0.3))
+             xlabel="explored volume at the end, first − second [m³]",
+             ylim=(-0.7, len(pairs) - 0.3))
     axes.grid(axis="x", alpha=0.3)
     axes.xaxis.set_major_formatter(matplotlib.ticker.StrMethodFormatter("{x:,g}"))
     return finish(figure, path)

@@ -2,8 +2,8 @@
 
     python3 -m campaigns.fly --executable PATH --out missions/NAME ORDER
 
-ORDER is JSON (see `order_of`). The folder appears under its name when it is complete, never before: it
-holds what the mission wrote, mission.log and outcome.json. A mission that crashes or hangs is a
+ORDER is JSON (see `order_of`). The folder appears under its name when it is complete, never before:
+it holds what the mission wrote, mission.log and outcome.json. A mission that crashes or hangs is a
 result, too; only trouble of the machine (no space, no rights, a signal) makes this program fail.
 """
 import argparse
@@ -41,7 +41,7 @@ def order_of(mission, meshes):
 
 
 def part_folder(out):
-    """Where a mission is flown; a name of its own, since another machine may fly beside this one."""
+    """Where a mission is flown; a name of its own: another machine may fly beside this one."""
     return out.with_name(f".{out.name}.part.{socket.gethostname()}.{os.getpid()}")
 
 
@@ -62,8 +62,9 @@ def require_space(folder):
 def run(command, log, wall_limit_s):
     """Exit code of the command (negative: the signal), or None if it took too long."""
     # The mission dies with this program, even if that is killed hard.
-    process = subprocess.Popen(["setpriv", "--pdeathsig", "KILL", *command], stdin=subprocess.DEVNULL,
-                               stdout=log, stderr=subprocess.STDOUT, start_new_session=True)
+    process = subprocess.Popen(["setpriv", "--pdeathsig", "KILL", *command],
+                               stdin=subprocess.DEVNULL, stdout=log, stderr=subprocess.STDOUT,
+                               start_new_session=True)
     try:
         return process.wait(timeout=wall_limit_s)
     except subprocess.TimeoutExpired:
@@ -112,7 +113,7 @@ def fly(executable, order, folder):
 
 
 def settle(folder):
-    """Brings the files to the disk, so that a power cut cannot leave a complete folder of empty files."""
+    """Brings the files to the disk: a power cut must not leave a complete folder of empty files."""
     for path in folder.iterdir():
         with open(path, "rb") as file:
             os.fsync(file.fileno())

@@ -2,9 +2,9 @@
 
     scripts/campaign FILE --out DIR [--jobs N] [--dry-run] [--retry-failed] [--world NAME=MESH]
 
-A campaign that was stopped goes on where it was; a finished mission is never flown again. Exit code: 0
-all flown, 1 some mission crashed, hung or was refused, or the machine failed, 2 bad description,
-130 interrupted.
+A campaign that was stopped goes on where it was; a finished mission is never flown again. Exit
+code: 0 all flown, 1 some mission crashed, hung or was refused, or the machine failed, 2 bad
+description, 130 interrupted.
 """
 import argparse
 import fcntl
@@ -66,7 +66,8 @@ def checked_campaign(options):
     """The campaign, if nothing keeps it from being flown."""
     campaign = description.read(options.file, meshes_of(options.world))
     if not os.access(options.mission, os.X_OK):
-        raise Refused(f"{options.mission} is no executable: run scripts/build, or give --mission PATH")
+        raise Refused(f"{options.mission} is no executable: run scripts/build, or give --mission "
+                      "PATH")
     problems = checks.all_problems(campaign, SHARE, options.mission,
                                    {**os.environ, "SPELUNK_SHARE": str(SHARE)},
                                    options.out / "missions")
@@ -84,7 +85,8 @@ def opened(out):
     except fly.MachineError as error:
         raise Refused(str(error)) from error
     except OSError as error:
-        raise Refused(f"--out {out}: {error.strerror}; choose a folder that can be written") from error
+        raise Refused(f"--out {out}: {error.strerror}; choose a folder that can be "
+                      "written") from error
     try:
         fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
     except BlockingIOError as error:
@@ -164,7 +166,8 @@ def concluded(campaign, options, code):
         return 130
     if code != 0:
         log = options.out / "snakemake.log"
-        print(f"{what_failed(log)}\ncampaign: stopped early; the whole log is {log}", file=sys.stderr)
+        print(f"{what_failed(log)}\ncampaign: stopped early; the whole log is {log}",
+              file=sys.stderr)
         return 1
     print(f"campaign: {options.out / 'campaign.csv'}; next: scripts/report {options.out}")
     return int(any(outcome["kind"] in fly.FAILED_KINDS for outcome in outcomes.values()))
@@ -175,8 +178,8 @@ def list_missions(campaign, options):
     outcomes = progress.outcomes_of(campaign.missions, options.out / "missions")
     for mission in campaign.missions:
         print(f"{outcomes.get(mission.name, {}).get('kind', 'to fly')}: {mission.name}")
-    print(f"campaign: {len(campaign.missions) - len(outcomes)} of {len(campaign.missions)} missions "
-          "to fly")
+    count = len(campaign.missions)
+    print(f"campaign: {count - len(outcomes)} of {count} missions to fly")
     return 0
 
 

@@ -82,7 +82,7 @@ class Paired:
 
 
 def interval_of_mean(differences):
-    """Bootstrap interval, bias corrected and accelerated; by percentiles where that is undefined."""
+    """Bootstrap interval, bias corrected and accelerated; by percentiles where it is undefined."""
     if len(differences) < SEEDS_MIN or np.ptp(differences) == 0:
         return np.nan, np.nan
     for method in ("BCa", "percentile"):

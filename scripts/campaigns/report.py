@@ -13,7 +13,8 @@ from campaigns import description, page, results
 
 def main():
     parser = argparse.ArgumentParser(prog="report", description=__doc__.split("\n\n")[0])
-    parser.add_argument("folder", type=pathlib.Path, metavar="DIR", help="--out of scripts/campaign")
+    parser.add_argument("folder", type=pathlib.Path, metavar="DIR",
+                        help="--out of scripts/campaign")
     parser.add_argument("--out", type=pathlib.Path, metavar="FILE",
                         help="the page, DIR/report/report.html; pictures go beside it")
     options = parser.parse_args()

@@ -78,8 +78,8 @@ class Comparison:
     @property
     def reachable_m3(self):
         """What there is to explore; nothing if no run got so far as to measure it."""
-        volumes = [run.summary["reachable_volume_m3"] for series in self.series for run in series.runs]
-        return max(volumes, default=0.0)
+        return max((run.summary["reachable_volume_m3"] for series in self.series
+                    for run in series.runs), default=0.0)
 
 
 @dataclasses.dataclass(frozen=True)
@@ -143,7 +143,8 @@ def read(folder):
     folder = pathlib.Path(folder)
     runs = tuple(read_run(path) for path in table.complete_folders(folder / "missions"))
     if not runs:
-        raise ResultsError(f"{folder}: no mission flown yet; run scripts/campaign FILE --out {folder}")
+        raise ResultsError(f"{folder}: no mission flown yet; run scripts/campaign FILE --out "
+                           f"{folder}")
     campaigns = campaigns_of(folder)
     flown = {run.outcome["mission"] for run in runs}
     described = {mission.name for campaign in campaigns for mission in campaign.missions}

@@ -8,8 +8,8 @@ import json
 import pathlib
 import sys
 
-DESCRIBED = ("mission", "world", "robot", "planner", "parameter_set", "time_limit_s", "seed", "kind",
-             "reason")
+DESCRIBED = ("mission", "world", "robot", "planner", "parameter_set", "time_limit_s", "seed",
+             "kind", "reason")
 MEASURED = ("mission_time_s", "explored_volume_m3", "reachable_volume_m3", "path_length_m",
             "collisions", "collision_s", "min_clearance_m", "returned_home", "remaining_at_home_s",
             "falls", "slips", "trips", "zones_marked", "plans")

@@ -30,10 +30,10 @@ class Description(unittest.TestCase):
         campaign, _ = description.parse({"parameter_sets": {"default": settings},
                                          "groups": [GROUP]})
         arguments = campaign.missions[0].arguments({"room": "/meshes/room.stl"})
-        self.assertEqual(arguments, ["--world", "/meshes/room.stl", "--robot", "aerial",
-                                     "--planner", "gbplanner", "--seed", "1", "--time-limit-s", "40",
-                                     "--set", "map.range_m=4", "--set", "planner.box_m=[24,24.5,10]",
-                                     "--set", "planner.once=true"])
+        self.assertEqual(" ".join(arguments),
+                         "--world /meshes/room.stl --robot aerial --planner gbplanner --seed 1 "
+                         "--time-limit-s 40 --set map.range_m=4 "
+                         "--set planner.box_m=[24,24.5,10] --set planner.once=true")
 
     def test_groups_may_differ(self):
         other = {**GROUP, "worlds": ["cave"], "planners": ["informed"], "wall_limit_s": 7}
@@ -47,8 +47,8 @@ class Description(unittest.TestCase):
         path = "bad.yaml"
         _, problems = description.parse({
             "tittle": "x", "parameter_sets": {"fine": {"resolution": 1}},
-            "groups": [{**GROUP, "seeds": "9-3", "time_limits_s": [-1], "parameter_sets": ["coarse"],
-                        "planer": ["gbplanner"], "robots": "aerial"}]})
+            "groups": [{**GROUP, "seeds": "9-3", "time_limits_s": [-1], "robots": "aerial",
+                        "parameter_sets": ["coarse"], "planer": ["gbplanner"]}]})
         self.assertEqual(len(problems), 7, problems)
         text = str(description.DescriptionError(path, problems))
         for part in ("unknown key \"tittle\"", "unknown key \"planer\"", "\"resolution\"",

@@ -1,8 +1,8 @@
 #!/usr/bin/python3
 """Stands in for the mission executable: the planner's name says how the mission goes.
 
-Each flight appends "begin NAME" and "end NAME" to the file $FAKE_FLIGHTS. Whatever planner is bad becomes
-good where the file $FAKE_MENDED exists; a patient one waits for it. `--set fake.wall_s=2` takes two seconds.
+Each flight appends "begin NAME" and "end NAME" to the file $FAKE_FLIGHTS. Whatever planner is bad
+becomes good where the file $FAKE_MENDED exists. `--set fake.wall_s=2` takes two seconds.
 """
 import argparse
 import json
@@ -65,8 +65,9 @@ def write(options):
     (options.out / "timeline.csv").write_text(
         "t_s,explored_m3,distance_m,x_m,y_m,z_m,yaw_rad,remaining_s,state\n"
         + "\n".join(rows) + "\n")
+    clearance_m = 0.5 + 0.01 * options.seed
     (options.out / "clearance.csv").write_text(
-        "t_s,clearance_m\n" + "".join(f"{t}.000,{0.5 + 0.01 * options.seed:.3f}\n" for t in seconds))
+        "t_s,clearance_m\n" + "".join(f"{t}.000,{clearance_m:.3f}\n" for t in seconds))
     (options.out / "plans.csv").write_text(
         "t_s,asked,status,kind,vertices,edges,global_vertices,global_edges,wall_ms\n"
         + "".join(f"{t}.000,explore,ok,local,9,12,{t},{2 * t},{10 * t}.000\n" for t in seconds))
@@ -78,7 +79,7 @@ def write(options):
         "mission_time_s": options.time_limit_s, "wall_time_s": time.monotonic(),
         "explored_volume_m3": rate * int(options.time_limit_s), "reachable_volume_m3": 200.0,
         "path_length_m": options.time_limit_s, "collisions": 0 if home else 1, "collision_s": 0.0,
-        "min_clearance_m": 0.5 + 0.01 * options.seed, "returned_home": home,
+        "min_clearance_m": clearance_m, "returned_home": home,
         "remaining_at_home_s": 3.0 if home else 0.0, "falls": 0, "slips": 0, "trips": 0,
         "zones_marked": 0, "plans": 10, "plan_time_ms": {"median": 1, "p95": 2, "max": 3}}))
     return 0 if home else 1

@@ -34,7 +34,8 @@ class Real(support.InTemporaryFolder):
     def fly(self, path, out, missions):
         answer = self.campaign(path, out=self.folder / out)
         self.assertEqual(answer.returncode, 0, answer.stderr + answer.stdout)
-        self.assertIn(f"{missions} of {missions} missions flown: {missions} finished", answer.stdout)
+        said = f"{missions} of {missions} missions flown: {missions} finished"
+        self.assertIn(said, answer.stdout)
 
     def check_report(self, folder):
         subprocess.run([sys.executable, "-m", "campaigns.report", str(folder)], check=True,

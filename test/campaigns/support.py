@@ -1,4 +1,4 @@
-"""What the tests of campaigns share: a folder of their own, a fake mission, one call of a campaign."""
+"""What the tests of campaigns share: an empty folder, a fake mission, one call of a campaign."""
 import json
 import os
 import pathlib
