@@ -43,7 +43,7 @@ def figure_row(series, comparison):
     reachable = comparison.reachable_m3
     volumes = np.array([summary["explored_volume_m3"] for summary in found])
     return {
-        "label": series.label, "runs": len(found),
+        "label": series.label, "runs": len(found), "failures": series.failures,
         "volume": spread(volumes), "share": spread(100 * volumes / reachable),
         "times": [time_to_share(series, share * reachable) for share in measures.SHARES],
         "rate": spread([summary["explored_volume_m3"] / summary["mission_time_s"]
@@ -105,8 +105,7 @@ def mission_row(run):
     """A line of the table of every mission."""
     summary = run.summary
     row = {"name": run.outcome["mission"], "kind": run.outcome["kind"],
-           "reason": run.outcome["reason"], "wall": number(run.outcome["wall_time_s"]),
-           "log": f"missions/{run.outcome['mission']}/mission.log"}
+           "reason": run.outcome["reason"], "wall": number(run.outcome["wall_time_s"])}
     if summary:
         home = f"{number(summary['remaining_at_home_s'])} s left" if summary["returned_home"] \
             else "not home"
@@ -124,7 +123,7 @@ class Pictures:
     def __init__(self, folder, results):
         self.folder = folder
         labels = [series.label for comparison in results.comparisons
-                  for series in comparison.series]
+                  for series in figures.flown(comparison)]
         self.styles = figures.Styles(labels)
 
     def embedded(self, path, text):
@@ -167,6 +166,7 @@ def section(comparison, pictures):
         **base, "reachable": number(comparison.reachable_m3),
         "is_on_foot": any(run.summary.get("slips", 0) or run.summary.get("falls", 0)
                           for series in flown for run in series.runs),
+        "without_result": [series.label for series in comparison.series if not series.runs],
         "rows": [figure_row(series, comparison) for series in flown],
         "pairs": [pair_row(pair, "explored at the end, m³") for pair in volumes]
         + [pair_row(pair, "explored, mean over time, m³") for pair in averages],

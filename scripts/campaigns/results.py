@@ -49,11 +49,12 @@ class Run:
 
 @dataclasses.dataclass(frozen=True)
 class Series:
-    """The measured runs of one planner with one parameter set, by seed."""
+    """One planner with one parameter set: measured runs by seed, and how many have no result."""
 
     planner: str
     label: str
     runs: tuple
+    failures: int = 0
 
 
 @dataclasses.dataclass(frozen=True)
@@ -117,10 +118,12 @@ def series_of(runs):
     for run in runs:
         groups.setdefault((run.outcome["planner"], run.outcome["parameter_set"]), []).append(run)
     sets = {parameter_set for _, parameter_set in groups}
-    return tuple(Series(planner, planner if len(sets) == 1 else f"{planner} ({parameter_set})",
-                        tuple(sorted((run for run in found if run.is_measured),
-                                     key=lambda run: run.seed)))
-                 for (planner, parameter_set), found in sorted(groups.items()))
+    found = []
+    for (planner, parameter_set), members in sorted(groups.items()):
+        label = planner if len(sets) == 1 else f"{planner} ({parameter_set})"
+        measured = sorted((run for run in members if run.is_measured), key=lambda run: run.seed)
+        found.append(Series(planner, label, tuple(measured), len(members) - len(measured)))
+    return tuple(found)
 
 
 def comparisons_of(folder, runs, references):

@@ -1,6 +1,7 @@
 """Reports of campaigns of the fake mission, read in a real browser."""
 import os
 import re
+import shutil
 import subprocess
 import sys
 import unittest
@@ -45,7 +46,7 @@ class Report(support.InTemporaryFolder):
         text = re.sub(r"\s+", " ", re.sub(r"<[^>]*>", " ", re.sub(r"(?s)<style>.*?</style>", "",
                                                                   dom)))
         for part in ("15 missions flown", "10 finished", "5 crash", "room, aerial, 10 s",
-                     "Reachable: 200 m³",
+                     "Reachable: 200 m³", "No run gave a result: crashing.",
                      "brisk 5 180 160 to 200 90 80 to 100",  # 10 s of 16 to 20 m3/s
                      "brisk − steady explored at the end, m³ 5 50",
                      "5 of 5", "0.36 0.32 to 0.40", "0.18 0.16 to 0.20",  # of tour and bound
@@ -90,6 +91,17 @@ class Report(support.InTemporaryFolder):
         self.assertIn("room__aerial__brisk__default__10__004", page)
         self.assertIn("there is no best_possible/room__aerial__10", page)
         self.assertIn("no two planners here that flew the same seed", page)
+
+    def test_runs_without_a_result_are_counted_beside_the_others(self):
+        path = self.describe(planners=["crashing"], seeds="1-3")
+        self.fly_without_snakemake(path)
+        (self.folder / "mended").touch()
+        shutil.rmtree(self.out / "missions" / "room__aerial__crashing__default__10__002")
+        self.describe(planners=["crashing"], seeds=[2])
+        self.fly_without_snakemake(path)
+        self.assertEqual(self.report().returncode, 0)
+        page = (self.out / "report" / "report.html").read_text()
+        self.assertIn("<small class=\"bad\">2 without result</small></td><td>120</td>", page)
 
     def test_only_crashes_make_a_report_too(self):
         self.fly_without_snakemake(self.describe(planners=["crashing"], seeds=[1]))
