@@ -3,21 +3,27 @@
 #include <algorithm>
 #include <cmath>
 
-#include "rrt_connect.h"
 #include "search_space.h"
 #include "spelunk/common/contract.h"
 #include "spelunk/common/stopwatch.h"
 #include "spelunk/map/free_voxels.h"
 #include "spelunk/navigation/swept_path_check.h"
+#include "tree_search.h"
 
 namespace spelunk::navigation {
 namespace {
 
-enum class Method { kAdaptive, kPlain, kPlainShort };
+enum class Method { kAdaptive, kRrtStar, kPlain, kPlainShort };
 
-Method methodOf(const NavigationParams& params) {
-  if (params.method == "adaptive") return Method::kAdaptive;
-  return params.method == "plain" ? Method::kPlain : Method::kPlainShort;
+constexpr std::pair<const char*, Method> kMethods[] = {{"adaptive", Method::kAdaptive},
+                                                       {"rrt_star", Method::kRrtStar},
+                                                       {"plain", Method::kPlain},
+                                                       {"plain_short", Method::kPlainShort}};
+
+std::optional<Method> methodNamed(const std::string& name) {
+  for (const auto& [known, method] : kMethods)
+    if (name == known) return method;
+  return std::nullopt;
 }
 
 /// One way to search, tried in turn.
@@ -43,7 +49,7 @@ struct Query {
       : asked(asked_query),
         params(parameters),
         spaces(robot_spaces),
-        method(methodOf(parameters)),
+        method(*methodNamed(parameters.method)),
         start(asked.start.position) {}
 
   NavigationAnswer run() {
@@ -100,15 +106,17 @@ struct Query {
     return true;
   }
 
+  /// Whether the search avoids unknown space and obstacles where it can.
+  bool staysInKnown() const { return method == Method::kAdaptive || method == Method::kRrtStar; }
+
   std::vector<Attempt> attemptsByGoal() const {
     std::vector<Attempt> attempts;
-    const bool is_adaptive = method == Method::kAdaptive;
     const auto add = [&](Unknown unknown) {
-      if (is_adaptive && params.safe_distance_m > 0.0)
+      if (staysInKnown() && params.safe_distance_m > 0.0)
         attempts.push_back({unknown, Clearance::kSafeDistance});
       attempts.push_back({unknown, Clearance::kBox});
     };
-    if (asked.region == SearchRegion::kKnown || (is_adaptive && is_goal_known))
+    if (asked.region == SearchRegion::kKnown || (staysInKnown() && is_goal_known))
       add(Unknown::kClosed);
     if (asked.region != SearchRegion::kKnown) add(Unknown::kOpen);
     return attempts;
@@ -124,6 +132,7 @@ struct Query {
   bool search(const Attempt& attempt, int iterations) {
     SearchSpace space(asked, start, spaces, attempt.unknown, attempt.clearance);
     TreeTask task;
+    task.kind = method == Method::kRrtStar ? TreeKind::kStar : TreeKind::kConnect;
     task.start = start;
     task.goal = asked.goal.position;
     task.region = searchRegion(attempt);
@@ -132,7 +141,7 @@ struct Query {
     task.time_limit_s = secondsLeft();
     task.line = method == Method::kPlain ? TreeLine::kAsFound : TreeLine::kSimplified;
     std::optional<map::FreeVoxels> known;
-    if (method == Method::kAdaptive) known.emplace(asked.map, task.region);
+    if (staysInKnown()) known.emplace(asked.map, task.region);
     const double known_share = attempt.unknown == Unknown::kClosed ? 1.0 : kKnownShare;
     task.draw = [&](Rng& rng) {
       return drawn(known && rng.uniform() < known_share ? &*known : nullptr, task.region, rng);
@@ -144,7 +153,8 @@ struct Query {
     answer.iterations += found.iterations;
     if (asked.trees == TreeDetail::kKeep) answer.trees = std::move(found.trees);
     if (found.line.empty()) return noteReached(found.reached), false;
-    accept(found.line, space, "found by RRT-Connect");
+    accept(found.line, space,
+           task.kind == TreeKind::kStar ? "found by RRT*" : "found by RRT-Connect");
     return true;
   }
 
@@ -219,8 +229,8 @@ struct Query {
 }  // namespace
 
 std::vector<std::string> NavigationParams::problems() const {
-  if (method == "adaptive" || method == "plain" || method == "plain_short") return {};
-  return {"navigation.method = '" + method + "': write adaptive, plain or plain_short"};
+  if (methodNamed(method)) return {};
+  return {"navigation.method = '" + method + "': write adaptive, rrt_star, plain or plain_short"};
 }
 
 const char* toText(NavigationStatus status) {

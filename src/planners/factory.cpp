@@ -4,6 +4,7 @@
 
 #include "spelunk/common/contract.h"
 #include "spelunk/planners/baselines/frontier_planner.h"
+#include "spelunk/planners/baselines/nbvp_planner.h"
 #include "spelunk/planners/gbplanner/gb_planner.h"
 #include "spelunk/planners/informed/informed_planner.h"
 
@@ -11,16 +12,15 @@ namespace spelunk::planners {
 namespace {
 
 template <class Params>
-Params paramsOf(const std::string& section, ParamTree& tree) {
-  Params params;
+Params paramsOf(const std::string& section, ParamTree& tree, Params params = {}) {
   tree.read(section, params);
   return params;
 }
 
 /// The same, its rules between fields checked as well.
 template <class Params>
-Params checkedParamsOf(const std::string& section, ParamTree& tree) {
-  const auto params = paramsOf<Params>(section, tree);
+Params checkedParamsOf(const std::string& section, ParamTree& tree, const Params& defaults = {}) {
+  const Params params = paramsOf(section, tree, defaults);
   for (const std::string& problem : params.problems()) tree.addProblem(section + ": " + problem);
   return params;
 }
@@ -32,9 +32,16 @@ Params checkedParamsOf(const std::string& section, ParamTree& tree) {
 }
 
 std::optional<baselines::Preference> preferenceOf(const std::string& name) {
-  if (name == "frontier_nearest") return baselines::Preference::kNearest;
+  if (name == "frontier_nearest" || name == "frontier_rrt_star")
+    return baselines::Preference::kNearest;
   if (name == "frontier_utility") return baselines::Preference::kUtility;
   return std::nullopt;
+}
+
+baselines::FrontierPlannerParams frontierDefaults(const std::string& name) {
+  if (name == "frontier_rrt_star") return baselines::FrontierPlannerParams::forRrtStar();
+  if (name == "frontier_nearest") return baselines::FrontierPlannerParams::forNearest();
+  return {};
 }
 
 void requireFlying(const std::string& name, const RobotModel& robot) {
@@ -46,14 +53,15 @@ void requireFlying(const std::string& name, const RobotModel& robot) {
 }  // namespace
 
 std::vector<std::string> plannerNames() {
-  return {"gbplanner", "informed", "frontier_nearest", "frontier_utility"};
+  return {"gbplanner",        "informed",          "frontier_nearest",
+          "frontier_utility", "frontier_rrt_star", "nbvp"};
 }
 
 std::vector<ParamDescription> describePlanner(const std::string& name, ParamTree& tree) {
   if (name == "gbplanner") return describe(name, paramsOf<gbplanner::GbPlannerParams>(name, tree));
   if (name == "informed") return describe(name, paramsOf<informed::InformedParams>(name, tree));
-  if (preferenceOf(name))
-    return describe(name, paramsOf<baselines::FrontierPlannerParams>(name, tree));
+  if (name == "nbvp") return describe(name, paramsOf<baselines::NbvpParams>(name, tree));
+  if (preferenceOf(name)) return describe(name, paramsOf(name, tree, frontierDefaults(name)));
   refuseUnknown(name);
 }
 
@@ -67,11 +75,13 @@ std::unique_ptr<ExplorationPlanner> makePlanner(const std::string& name, ParamTr
     return std::make_unique<informed::InformedPlanner>(
         checkedParamsOf<informed::InformedParams>(name, tree), robot, resolution_m);
   }
+  if (name == "nbvp")
+    return std::make_unique<baselines::NbvpPlanner>(
+        checkedParamsOf<baselines::NbvpParams>(name, tree), robot, resolution_m);
   if (const auto preference = preferenceOf(name)) {
     requireFlying(name, robot);
     return std::make_unique<baselines::FrontierPlanner>(
-        checkedParamsOf<baselines::FrontierPlannerParams>(name, tree), *preference, robot,
-        resolution_m);
+        checkedParamsOf(name, tree, frontierDefaults(name)), *preference, robot, resolution_m);
   }
   refuseUnknown(name);
 }

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 
 #include "spelunk/sim/winding.h"
 #include "spelunk/sim/world_kinds.h"
@@ -62,15 +63,17 @@ struct Layout {
                 field.crossings[static_cast<std::size_t>(b)], field.width_min, field.width_max);
   }
 
-  /// Openings through the barrier between the halves; the uppermost is the narrowest.
+  /// Openings through the barrier between the halves; the first is the uppermost and narrowest.
   void addOpenings(const Field& wide, const Field& narrow) {
-    for (const int row : {wide.rows - 2, wide.rows / 2, 1}) {
+    const std::array<int, 3> rows{wide.rows - 2, wide.rows / 2, 1};
+    for (int k = 0; k < params.openings; ++k) {
+      const int row = rows[static_cast<std::size_t>(k)];
       const Eigen::Vector2d& from = wide.at(wide.columns - 1, std::clamp(row, 0, wide.rows - 1));
       int best = 0;
       for (int i = 1; i < narrow.rows; ++i)
         if (std::abs(narrow.at(0, i).y() - from.y()) < std::abs(narrow.at(0, best).y() - from.y()))
           best = i;
-      const bool narrowest = row == wide.rows - 2;
+      const bool narrowest = k == 0;
       addStreet(from, narrow.at(0, best), narrowest ? params.opening_m : narrow.width_min,
                 narrowest ? params.opening_m : narrow.width_max);
     }

@@ -233,6 +233,84 @@ TEST(Navigator, StartThatTouchesAnObstacleIsLeftByAShortStep) {
   EXPECT_TRUE(isKnownFree(query, rest, query.box));
 }
 
+/// A block of rock in a known hall; left of it the way is shorter.
+NavigationQuery aroundABlock() {
+  test::GridWorld world({50, 40, 8}, 0.5);
+  world.carve({{0.5, 0.5, 0.5}, {24.5, 19.5, 3.5}});
+  world.block({{4.0, 8.0, 0.0}, {20.0, 12.0, 4.0}});
+  map::OccupancyMap map = emptyMap();
+  world.enterInto(map);
+  NavigationQuery query;
+  query.map = map.freeze();
+  query.start = {{9.0, 4.0, 2.0}, 0.0};
+  query.goal = {{9.0, 16.0, 2.0}, 0.0};
+  query.box = kBox;
+  query.region = SearchRegion::kKnown;
+  return query;
+}
+
+Navigator rrtStar(int iterations) {
+  NavigationParams params;
+  params.method = "rrt_star";
+  params.safe_distance_m = 0.0;
+  params.iterations = iterations;
+  return Navigator(params);
+}
+
+TEST(RrtStar, WayIsFreeAndRepeats) {
+  const NavigationQuery query = acrossTheHalls();
+  Navigator used = rrtStar(3000);
+  const NavigationAnswer first = used.plan(query);
+  ASSERT_EQ(first.status, NavigationStatus::kOk) << first.reason;
+  EXPECT_TRUE(isKnownFree(query, first.path, query.box));
+  EXPECT_LT(lengthOf(first.path), 37.0);  // the shortest is about 36
+  for (const NavigationAnswer& again : {used.plan(query), rrtStar(3000).plan(query)}) {
+    ASSERT_EQ(again.path.size(), first.path.size());
+    for (std::size_t i = 0; i < first.path.size(); ++i)
+      EXPECT_EQ(again.path[i].position, first.path[i].position);
+  }
+}
+
+TEST(RrtStar, WaysAreNotLongerThanThoseOfRrtConnectAndTakeTheShorterSide) {
+  NavigationQuery query = aroundABlock();
+  constexpr double kShorterSide_m = 18.6;  // round the left end; the right one takes 30 m
+  int longer_side_by_connect = 0;
+  for (std::uint64_t seed = 1; seed <= 8; ++seed) {
+    query.rng = Rng(seed);
+    const NavigationAnswer star = rrtStar(2500).plan(query);
+    const NavigationAnswer connect = navigator("adaptive", 0.0).plan(query);
+    ASSERT_EQ(star.status, NavigationStatus::kOk) << star.reason;
+    ASSERT_EQ(connect.status, NavigationStatus::kOk) << connect.reason;
+    EXPECT_LT(lengthOf(star.path), kShorterSide_m * 1.05) << "seed " << seed;
+    EXPECT_LT(lengthOf(star.path), lengthOf(connect.path) * 1.02) << "seed " << seed;
+    longer_side_by_connect += lengthOf(connect.path) > 1.3 * kShorterSide_m ? 1 : 0;
+  }
+  EXPECT_GT(longer_side_by_connect, 0) << "the world does not tell the methods apart";
+}
+
+TEST(RrtStar, MoreIterationsNeverMakeTheWayLonger) {
+  NavigationQuery query = acrossTheHalls();
+  query.region = SearchRegion::kKnown;
+  double last = 1e9;
+  for (const int iterations : {1500, 6000}) {
+    const NavigationAnswer answer = rrtStar(iterations).plan(query);
+    ASSERT_EQ(answer.status, NavigationStatus::kOk) << answer.reason;
+    EXPECT_NEAR(answer.iterations, iterations, 4);
+    EXPECT_LT(lengthOf(answer.path), last * 1.01);
+    last = lengthOf(answer.path);
+  }
+}
+
+TEST(RrtStar, StopsAtItsIterationsWhereThereIsNoWay) {
+  NavigationQuery query = acrossTheHalls();
+  query.bounds.max.x() = 15.0;  // the door lies outside
+  const NavigationAnswer answer = rrtStar(800).plan(query);
+  EXPECT_EQ(answer.status, NavigationStatus::kNoPath);
+  EXPECT_LE(answer.iterations, 800 + 4);
+  ASSERT_TRUE(answer.nearest_reachable.has_value());
+  EXPECT_NEAR(answer.nearest_reachable->y(), 6.1, 1.5);
+}
+
 TEST(Navigator, BadQueriesBreakTheContract) {
   NavigationQuery query = acrossTheHalls();
   query.map.reset();

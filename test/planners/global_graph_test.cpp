@@ -1,4 +1,4 @@
-#include "spelunk/planners/gbplanner/global_graph.h"
+#include "spelunk/planners/shared/global_graph.h"
 
 #include <gtest/gtest.h>
 

@@ -239,8 +239,9 @@ TEST(PlannerFactory, RefusesARobotWithLegsForPlannersThatFly) {
   RobotModel walker = smallRobot();
   walker.kind = "legged";
   ParamTree tree;
-  EXPECT_NO_THROW(static_cast<void>(makePlanner("gbplanner", tree, walker, kResolution)));
-  for (const char* name : {"informed", "frontier_nearest", "frontier_utility"})
+  for (const char* name : {"gbplanner", "nbvp"})
+    EXPECT_NO_THROW(static_cast<void>(makePlanner(name, tree, walker, kResolution)));
+  for (const char* name : {"informed", "frontier_nearest", "frontier_utility", "frontier_rrt_star"})
     EXPECT_THROW(static_cast<void>(makePlanner(name, tree, walker, kResolution)), OutsideError);
 }
 

@@ -135,6 +135,8 @@ INSTANTIATE_TEST_SUITE_P(
     All, ShippedWorld,
     testing::Values(Expectation{"long_wall", 1458682609187250659ULL, 12000, 24000},
                     Expectation{"room_and_pillar", 5248636625113724989ULL, 50000, 90000},
+                    Expectation{"room_and_pillar_narrow", 9034599414789463336ULL, 20000, 60000},
+                    Expectation{"room_and_pillar_wide", 10085471890647589984ULL, 50000, 110000},
                     Expectation{"cave", 5647964739153747146ULL, 12000, 26000},
                     Expectation{"ramps", 18405832082591299727ULL, 4000, 9000},
                     Expectation{"rough", 124908318093271421ULL, 1800, 3500},
@@ -178,7 +180,8 @@ TEST_P(ShippedMine, IsNowhereNarrowerThanPlanned) {
 }
 
 INSTANTIATE_TEST_SUITE_P(All, ShippedMine,
-                         testing::Values("long_wall", "room_and_pillar", "cave", "ramps", "rough",
+                         testing::Values("long_wall", "room_and_pillar", "room_and_pillar_narrow",
+                                         "room_and_pillar_wide", "cave", "ramps", "rough",
                                          "mine_96", "cave_1", "cave_2"),
                          [](const auto& instance) { return std::string(instance.param); });
 

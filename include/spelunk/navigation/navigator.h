@@ -28,12 +28,14 @@ struct NavigationParams {
   template <class Visitor>
   void visit(Visitor&& field) {
     field("method", method, Bounds{},
-          "adaptive (A-NAV), plain (R-NAV) or plain_short (R-NAV with shortened paths)",
+          "adaptive (A-NAV), rrt_star, plain (R-NAV) or plain_short (R-NAV with shortened paths)",
           Audience::kUser);
     field("safe_distance_m", safe_distance_m, Bounds{0.0, 5.0},
           "kept between the robot's box and obstacles where that is possible", Audience::kUser);
-    field("extension_m", extension_m, Bounds{0.2, 20.0}, "longest step of a tree");
-    field("iterations", iterations, Bounds{1, 10000000}, "tree extensions tried at most");
+    field("extension_m", extension_m, Bounds{0.2, 20.0},
+          "longest step of a tree; rrt_star takes four times this");
+    field("iterations", iterations, Bounds{1, 10000000},
+          "tree extensions tried at most; rrt_star uses them all");
     field("planning_time_s", planning_time_s, Bounds{0.01, 1000.0},
           "longest wall time of one query in flight; lockstep counts iterations only");
   }
@@ -73,7 +75,7 @@ struct NavigationQuery {
   Rng rng{0};
 };
 
-/// Vertices of both trees of a search and the edges between them.
+/// Vertices of the trees of a search (RRT-Connect has two) and the edges between them.
 struct NavigationTrees {
   std::vector<Eigen::Vector3d> vertices;
   std::vector<std::pair<std::uint32_t, std::uint32_t>> edges;
@@ -94,7 +96,7 @@ struct NavigationAnswer {
   NavigationTrees trees;  ///< Of the last search, if asked for; empty where none was needed.
 };
 
-/// Point-to-point navigation on a map that is partly unknown. Two methods:
+/// Point-to-point navigation on a map that is partly unknown. Three methods:
 ///
 /// "adaptive" is A-NAV (Akbari and Bernardini, "Informed autonomous exploration of subterranean
 /// environments", IEEE Robotics and Automation Letters, 2021, section IV): RRT-Connect (Kuffner
@@ -112,6 +114,10 @@ struct NavigationAnswer {
 /// with samples from the whole box around what is known, start and goal, without safe distance and
 /// as it comes: no straight line is tried first and nothing is shortened. "plain_short" is the same
 /// with both, which the paper does not have: a stronger thing to compare with.
+///
+/// "rrt_star" searches where "adaptive" does, by RRT* (Karaman and Frazzoli, IJRR 2011): its one
+/// tree is rewired until the iterations are used up, so that ways come near to the shortest, at
+/// many times the cost.
 ///
 /// Paths are shortened by OMPL's path simplification under the same rules as the search. The same
 /// query gives the same answer, unless its time limit cuts it short. Keeps what it

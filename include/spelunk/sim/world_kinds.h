@@ -58,6 +58,7 @@ struct RoomsParams {
   double narrow_pitch_m = 12.0;
   double narrow_min_m = 2.4;
   double narrow_max_m = 3.8;
+  int openings = 3;
   double opening_m = 1.8;
   double height_min_m = 3.2;
   double height_max_m = 4.2;
@@ -76,6 +77,7 @@ struct RoomsParams {
     field("narrow_pitch_m", narrow_pitch_m, Bounds{5.0, 60.0}, "from crossing to crossing");
     field("narrow_min_m", narrow_min_m, Bounds{1.8, 20.0}, "narrowest room, narrow half");
     field("narrow_max_m", narrow_max_m, Bounds{1.8, 20.0}, "widest room, narrow half");
+    field("openings", openings, Bounds{1, 3}, "passages between the halves");
     field("opening_m", opening_m, Bounds{1.8, 20.0}, "the narrowest passage between the halves");
     field("height_min_m", height_min_m, Bounds{1.6, 20.0}, "lowest roof");
     field("height_max_m", height_max_m, Bounds{1.6, 20.0}, "highest roof");

@@ -22,13 +22,6 @@ constexpr double kClusterSide_m = 2.0;
 constexpr double kReached_m = 0.5;
 constexpr double kShareLeft = 0.5;  // of what a target promised that still makes it worth having
 
-navigation::NavigationParams navigationParams(const FrontierPlannerParams& params) {
-  navigation::NavigationParams navigation;
-  navigation.safe_distance_m = params.safe_distance_m;
-  navigation.iterations = params.iterations;
-  return navigation;
-}
-
 /// Places that need not be looked at again in this plan.
 class Crossed {
  public:
@@ -84,6 +77,7 @@ struct FrontierPlanner::Search {
     const StartCheck start = checkStart(request, space.free());
     if (!start.root) return result = refusedStart(start), false;
     root = *start.root;
+    planner.trail_.follow(request, root, space.free());
     return true;
   }
 
@@ -97,10 +91,15 @@ struct FrontierPlanner::Search {
            static_cast<std::size_t>(params.frontier_voxels_min);
   }
 
+  /// Whether more than slivers of unknown space would be seen from a place.
+  [[nodiscard]] bool seesEnough(const Eigen::Vector3d& place) const {
+    return params.gain_min_m3 <= 0.0 || gainAt(place) >= params.gain_min_m3;
+  }
+
   /// Whether a target is still worth what it was when it was chosen.
   [[nodiscard]] bool keepsPromise(const Eigen::Vector3d& voxel, const Eigen::Vector3d& place,
                                   double promised_m3) const {
-    if (!ranksByUtility()) return isCluster(voxel);
+    if (!ranksByUtility()) return isCluster(voxel) && seesEnough(place);
     return gainAt(place) >= std::max(kShareLeft * promised_m3, params.gain_min_m3);
   }
 
@@ -173,7 +172,7 @@ struct FrontierPlanner::Search {
     }
     Candidate candidate{voxel, {}, 0.0, 0.0, {}};
     if (ranksByUtility()) candidate.gain_m3 = gainAt(place);
-    if (ranksByUtility() && candidate.gain_m3 < params.gain_min_m3) return;
+    if (ranksByUtility() ? candidate.gain_m3 < params.gain_min_m3 : !seesEnough(place)) return;
     const std::string stream = std::to_string(result.stats.samples);
     auto answer = space.navigate(root, place, stream, navigation::TreeDetail::kKeep);
     if (answer.status != navigation::NavigationStatus::kOk) {
@@ -197,11 +196,20 @@ struct FrontierPlanner::Search {
   [[nodiscard]] bool fitsBudget(double length_m, const Eigen::Vector3d& end) {
     const double straight_m = (request.home.position - end).norm();
     if (travelTime(length_m + straight_m) > request.remaining_s) return false;
+    return travelTime(length_m + metresHome(length_m, end)) <= request.remaining_s;
+  }
+
+  /// From the end of a way that is `length_m` long: by navigation if that finds one.
+  [[nodiscard]] double metresHome(double length_m, const Eigen::Vector3d& end) {
+    const double back_m = length_m + planner.trail_.metres();
+    if (!navigatesHome()) return back_m;
     const auto home = space.navigate(end, request.home.position, "home from a target",
                                      navigation::TreeDetail::kLeaveOut);
-    return home.status == navigation::NavigationStatus::kOk &&
-           travelTime(length_m + lengthOf(home.path)) <= request.remaining_s;
+    return home.status == navigation::NavigationStatus::kOk ? lengthOf(home.path) : back_m;
   }
+
+  /// RRT* would spend all its iterations on each of the many ways home that are only measured.
+  [[nodiscard]] bool navigatesHome() const { return params.way_method != "rrt_star"; }
 
   void choose() {
     std::stable_sort(candidates.begin(), candidates.end(),
@@ -231,6 +239,7 @@ struct FrontierPlanner::Search {
   void propose(Target target) {
     result.status = PlanStatus::kOk;
     result.path = target.path;
+    planner.trail_.expect(toLine(target.path), space.free());
     constexpr double kNear = 3.0;  // times the range: such a way is flown with its eyes open
     result.kind =
         lengthOf(target.path) < kNear * params.range_m ? PathKind::kLocal : PathKind::kReposition;
@@ -263,17 +272,17 @@ struct FrontierPlanner::Search {
   }
 
   void goHome() {
-    const auto answer =
-        space.navigate(root, request.home.position, "home", navigation::TreeDetail::kLeaveOut);
-    if (answer.status == navigation::NavigationStatus::kOk) return finishHome(toLine(answer.path));
-    Polyline back{root};
-    for (auto at = request.trail.rbegin(); at != request.trail.rend(); ++at)
-      back.push_back(at->pose.position);
-    back.push_back(request.home.position);
+    if (navigatesHome()) {
+      const auto answer =
+          space.navigate(root, request.home.position, "home", navigation::TreeDetail::kLeaveOut);
+      if (answer.status == navigation::NavigationStatus::kOk)
+        return finishHome(toLine(answer.path));
+    }
     constexpr double kShortcut_m = 8.0;
-    if (space.isFree(back)) return finishHome(space.shortened(back, kShortcut_m));
+    const Polyline back = planner.trail_.findWay(space.free());
+    if (!back.empty()) return finishHome(space.shortened(back, kShortcut_m));
     result.status = PlanStatus::kNoPath;
-    result.reason = "no free way home is known: " + answer.reason;
+    result.reason = "no free way home is known";
   }
 
   void finishHome(const Polyline& way) {
@@ -293,7 +302,7 @@ FrontierPlanner::FrontierPlanner(const FrontierPlannerParams& params, Preference
       preference_(preference),
       robot_(robot),
       view_(robot, resolution_m, {params.range_m, {params.closing_height_m, params.growth_m}}),
-      navigator_(navigationParams(params)),
+      navigator_(params.navigation()),
       boxes_(robot.box_m),
       tried_(params.tried_radius_m) {
   require(kindOf(robot) == RobotKind::kAerial, "FrontierPlanner: for robots that fly");
@@ -332,6 +341,7 @@ void FrontierPlanner::reset() {
   view_.forget();
   tried_ = TriedTargets(params_.tried_radius_m);
   visits_ = {};
+  trail_ = {};
   target_.reset();
   search_layer_ = {};
   samples_layer_ = {};

@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "spelunk/common/stopwatch.h"
+#include "spelunk/planners/shared/rejection_count.h"
 
 namespace spelunk::planners::gbplanner {
 namespace {
@@ -11,28 +12,6 @@ namespace {
 using graph::VertexId;
 
 constexpr int kSamplesBetweenClockReads = 64;
-
-void count(Rejection rejection, PlanStats& stats) {
-  switch (rejection) {
-    case Rejection::kNone:
-      break;
-    case Rejection::kOccupied:
-      ++stats.rejected_occupied;
-      break;
-    case Rejection::kUnknown:
-      ++stats.rejected_unknown;
-      break;
-    case Rejection::kOutOfBounds:
-      ++stats.rejected_out_of_bounds;
-      break;
-    case Rejection::kNoGo:
-      ++stats.rejected_no_go;
-      break;
-    case Rejection::kTooSteep:
-      ++stats.rejected_too_steep;
-      break;
-  }
-}
 
 struct Expansion {
   LocalGraph& local;

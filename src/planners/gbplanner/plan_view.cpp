@@ -22,12 +22,6 @@ Eigen::Vector3d rayMargin(const map::GainEvaluator& evaluator, const map::Frozen
   return {evaluator.reach(), evaluator.reach(), map.resolution()};
 }
 
-/// What a robot with legs stands on.
-std::optional<GroundUnder> groundUnder(const map::FrozenMap& map, const RobotModel& robot) {
-  if (kindOf(robot) != RobotKind::kLegged) return std::nullopt;
-  return GroundUnder{terrain::GroundRules::of(robot, map.resolution()), terrain::lookupIn(map)};
-}
-
 AxisAlignedBox grown(const AxisAlignedBox& box, const Eigen::Vector3d& margin) {
   return {box.min - margin, box.max + margin};
 }

@@ -5,6 +5,11 @@
 
 namespace spelunk::planners {
 
+std::optional<GroundUnder> groundUnder(const map::FrozenMap& map, const RobotModel& robot) {
+  if (kindOf(robot) != RobotKind::kLegged) return std::nullopt;
+  return GroundUnder{terrain::GroundRules::of(robot, map.resolution()), terrain::lookupIn(map)};
+}
+
 FreeSpace::FreeSpace(Sweep sweep, const Eigen::Vector3d& box_size, const AxisAlignedBox& bounds,
                      const std::vector<NoGoZone>& zones, std::optional<GroundUnder> ground)
     : sweep_(std::move(sweep)),

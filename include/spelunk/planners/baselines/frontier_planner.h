@@ -9,6 +9,7 @@
 #include "spelunk/planners/baselines/frontier_planner_params.h"
 #include "spelunk/planners/exploration_planner.h"
 #include "spelunk/planners/shared/frontier_view.h"
+#include "spelunk/planners/shared/trail_home.h"
 #include "spelunk/planners/shared/tried_targets.h"
 #include "spelunk/planners/shared/visits.h"
 
@@ -17,7 +18,8 @@ namespace spelunk::planners::baselines {
 /// What makes one frontier better than another.
 enum class Preference {
   kNearest,  ///< The shortest way to it: Yamauchi, A frontier-based approach for autonomous
-             ///< exploration, CIRA 1997. "FE" in Akbari 2021, section VIII-B.
+             ///< exploration, CIRA 1997. "FE" in Akbari 2021, section VIII-B; with ways by RRT*
+             ///< the "FrontierPlanner" of Dang 2020, section 5.
   kUtility   ///< Most unknown volume seen from it a second of travel: Dai et al., Fast
              ///< frontier-based information-driven autonomous exploration with an MAV, ICRA 2020.
              ///< "UE".
@@ -31,7 +33,8 @@ enum class Preference {
 /// the way to each is planned.
 ///
 /// best_gain and gain_threshold of the stats are cubic metres of unknown space, 0 for kNearest.
-/// planHome(): by navigation, else back along the trail.
+/// planHome(): by navigation, else, and with ways by RRT* always, by the shortest way along the
+/// trail.
 class FrontierPlanner final : public ExplorationPlanner {
  public:
   FrontierPlanner(const FrontierPlannerParams& params, Preference preference,
@@ -62,6 +65,7 @@ class FrontierPlanner final : public ExplorationPlanner {
   map::ConfigurationSpace boxes_;
   TriedTargets tried_;
   Visits visits_;
+  TrailHome trail_;
   std::optional<Target> target_;
   GraphLayer search_layer_;
   GraphLayer samples_layer_;

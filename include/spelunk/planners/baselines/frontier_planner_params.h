@@ -4,11 +4,14 @@
 #include <vector>
 
 #include "spelunk/common/params.h"
+#include "spelunk/navigation/navigator.h"
 
 namespace spelunk::planners::baselines {
 
-/// Parameters of the frontier planners (sections "frontier_nearest" and "frontier_utility").
+/// Parameters of the frontier planners (sections "frontier_nearest", "frontier_utility" and
+/// "frontier_rrt_star").
 struct FrontierPlannerParams {
+  std::string way_method = "adaptive";
   double range_m = 4.0;
   double sample_spacing_m = 1.0;
   int candidates = 10;
@@ -23,12 +26,13 @@ struct FrontierPlannerParams {
 
   template <class Visitor>
   void visit(Visitor&& field) {
+    field("way_method", way_method, Bounds{}, "how ways are planned: see navigation.method");
     field("range_m", range_m, Bounds{0.5, 100.0}, "length of the rays of a gain", Audience::kUser);
     field("sample_spacing_m", sample_spacing_m, Bounds{0.1, 20.0},
           "candidates are at least this far apart");
     field("candidates", candidates, Bounds{1, 1000}, "of which the best is flown to");
     field("gain_min_m3", gain_min_m3, Bounds{0.0, 1e5},
-          "less unknown volume is not worth flying to (frontier_utility only)", Audience::kUser);
+          "a place that sees less unknown volume is not worth flying to", Audience::kUser);
     field("frontier_voxels_min", frontier_voxels_min, Bounds{1, 100000},
           "fewer frontier voxels within a metre are no target");
     field("closing_height_m", closing_height_m, Bounds{0.0, 10.0},
@@ -42,8 +46,16 @@ struct FrontierPlannerParams {
     field("tried_radius_m", tried_radius_m, Bounds{0.1, 50.0},
           "targets this near to a failed one are the same");
   }
-  /// Rules between fields, for the tree's problem list: none so far.
-  [[nodiscard]] static std::vector<std::string> problems() { return {}; }
+  /// Rules between fields, for the tree's problem list.
+  [[nodiscard]] std::vector<std::string> problems() const;
+
+  /// The defaults of "frontier_nearest" and "frontier_rrt_star"; those of a new struct are
+  /// "frontier_utility"'s.
+  [[nodiscard]] static FrontierPlannerParams forNearest();
+  [[nodiscard]] static FrontierPlannerParams forRrtStar();
+
+  /// What navigation to frontiers is to use.
+  [[nodiscard]] navigation::NavigationParams navigation() const;
 };
 
 }  // namespace spelunk::planners::baselines

@@ -10,8 +10,8 @@
 #include "spelunk/map/volumetric_gain.h"
 #include "spelunk/planners/exploration_planner.h"
 #include "spelunk/planners/gbplanner/gb_planner_params.h"
-#include "spelunk/planners/gbplanner/global_graph.h"
 #include "spelunk/planners/gbplanner/local_search.h"
+#include "spelunk/planners/shared/global_graph.h"
 #include "spelunk/planners/shared/tried_targets.h"
 
 namespace spelunk::planners::gbplanner {

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "spelunk/planners/gbplanner/gb_planner_params.h"
-#include "spelunk/planners/gbplanner/global_graph.h"
+#include "spelunk/planners/shared/global_graph.h"
 #include "spelunk/planners/shared/tried_targets.h"
 
 namespace spelunk::planners::gbplanner {

@@ -6,6 +6,8 @@
 #include <vector>
 
 #include "spelunk/common/box.h"
+#include "spelunk/common/robot_model.h"
+#include "spelunk/map/frozen_map.h"
 #include "spelunk/map/occupancy.h"
 #include "spelunk/terrain/ground_rules.h"
 
@@ -19,6 +21,10 @@ struct GroundUnder {
   terrain::GroundRules rules;
   terrain::GroundLookup lookup;
 };
+
+/// The ground of a map for a robot with legs, none for one that flies. Refers to the map.
+[[nodiscard]] std::optional<GroundUnder> groundUnder(const map::FrozenMap& map,
+                                                     const RobotModel& robot);
 
 /// Where the robot's box may go: known free space inside the bounds and outside all zones; for a
 /// robot with legs, above ground it can walk on. A view for the duration of one plan: what it

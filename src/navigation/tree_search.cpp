@@ -1,4 +1,4 @@
-#include "rrt_connect.h"
+#include "tree_search.h"
 
 #include <ompl/base/MotionValidator.h>
 #include <ompl/base/PlannerData.h>
@@ -11,6 +11,7 @@
 #include <ompl/geometric/PathGeometric.h>
 #include <ompl/geometric/PathSimplifier.h>
 #include <ompl/geometric/planners/rrt/RRTConnect.h>
+#include <ompl/geometric/planners/rrt/RRTstar.h>
 #include <ompl/util/Console.h>
 
 #include <algorithm>
@@ -25,8 +26,9 @@ namespace og = ompl::geometric;
 
 constexpr unsigned kShortcutSteps = 120;
 constexpr unsigned kShortcutMisses = 40;
-constexpr double kRim_m = 1e-3;   // states on the region's faces are inside for OMPL too
-constexpr int kStartTreeTag = 1;  // OMPL's, of vertices that grew from the start
+constexpr double kStarSteps = 4.0;  // RRT* rewires no farther than it steps
+constexpr double kRim_m = 1e-3;     // states on the region's faces are inside for OMPL too
+constexpr int kStartTreeTag = 1;    // OMPL's, of vertices that grew from the start
 
 Eigen::Vector3d positionOf(const ob::State* state) {
   const double* values = state->as<ob::RealVectorStateSpace::StateType>()->values;
@@ -38,7 +40,7 @@ void setPosition(ob::State* state, const Eigen::Vector3d& position) {
   std::copy(position.data(), position.data() + 3, values);
 }
 
-/// Draws from our own stream, so that a query repeats. RRT-Connect only asks for uniform states.
+/// Draws from our own stream, so that a query repeats.
 class SeededSampler : public ob::StateSampler {
  public:
   SeededSampler(const ob::StateSpace* space, const TreeTask& task, Rng* rng)
@@ -69,8 +71,10 @@ class SweepValidator : public ob::MotionValidator {
   SweepValidator(const ob::SpaceInformationPtr& info, const TreeTask& task)
       : ob::MotionValidator(info), task_(task) {}
 
+  /// RRT* takes an edge it found free for free the other way round too.
   bool checkMotion(const ob::State* a, const ob::State* b) const override {
-    return task_.is_free(positionOf(a), positionOf(b));
+    return task_.is_free(positionOf(a), positionOf(b)) &&
+           (task_.kind == TreeKind::kConnect || task_.is_free(positionOf(b), positionOf(a)));
   }
   bool checkMotion(const ob::State* a, const ob::State* b,
                    std::pair<ob::State*, double>& last_valid) const override {
@@ -88,6 +92,14 @@ class SweepValidator : public ob::MotionValidator {
 class SeededSimplifier : public og::PathSimplifier {
  public:
   SeededSimplifier(const ob::SpaceInformationPtr& info, Rng rng) : og::PathSimplifier(info) {
+    rng_.setLocalSeed(static_cast<std::uint_fast32_t>(rng.next() & 0x7FFFFFFF));
+  }
+};
+
+/// OMPL's RRT*, whose choice between goal and sample would differ from run to run.
+class SeededRrtStar : public og::RRTstar {
+ public:
+  SeededRrtStar(const ob::SpaceInformationPtr& info, Rng rng) : og::RRTstar(info) {
     rng_.setLocalSeed(static_cast<std::uint_fast32_t>(rng.next() & 0x7FFFFFFF));
   }
 };
@@ -125,32 +137,43 @@ struct Search {
   TreeResult run() {
     auto problem = std::make_shared<ob::ProblemDefinition>(info);
     problem->setStartAndGoalStates(stateAt(task.start), stateAt(task.goal));
-    og::RRTConnect planner(info);
-    planner.setRange(task.extension_m);
-    planner.setProblemDefinition(problem);
-    planner.setup();
+    const ob::PlannerPtr planner = makePlanner();
+    planner->setProblemDefinition(problem);
+    planner->setup();
     ob::IterationTerminationCondition limit(static_cast<unsigned>(task.iterations));
     const ob::PlannerStatus status =
         std::isfinite(task.time_limit_s)
-            ? planner.solve(ob::plannerOrTerminationCondition(
+            ? planner->solve(ob::plannerOrTerminationCondition(
                   ob::PlannerTerminationCondition(limit),
                   ob::timedPlannerTerminationCondition(task.time_limit_s)))
-            : planner.solve(limit);
+            : planner->solve(limit);
     TreeResult result;
     result.iterations = static_cast<int>(limit.getTimesCalled());
-    readTrees(planner, result);
+    readTrees(*planner, result);
     if (status == ob::PlannerStatus::EXACT_SOLUTION)
       result.line = lineOf(*problem->getSolutionPath()->as<og::PathGeometric>());
     return result;
   }
 
-  void readTrees(const og::RRTConnect& planner, TreeResult& result) const {
+  ob::PlannerPtr makePlanner() const {
+    if (task.kind == TreeKind::kStar) {
+      auto planner = std::make_shared<SeededRrtStar>(info, rng.fork("rrt_star"));
+      planner->setRange(kStarSteps * task.extension_m);
+      return planner;
+    }
+    auto planner = std::make_shared<og::RRTConnect>(info);
+    planner->setRange(task.extension_m);
+    return planner;
+  }
+
+  void readTrees(const ob::Planner& planner, TreeResult& result) const {
     ob::PlannerData data(info);
     planner.getPlannerData(data);
     for (unsigned i = 0; i < data.numVertices(); ++i) {
       const ob::PlannerDataVertex& vertex = data.getVertex(i);
       result.trees.vertices.push_back(positionOf(vertex.getState()));
-      if (vertex.getTag() == kStartTreeTag) result.reached.push_back(result.trees.vertices.back());
+      if (task.kind == TreeKind::kStar || vertex.getTag() == kStartTreeTag)
+        result.reached.push_back(result.trees.vertices.back());
       std::vector<unsigned> targets;
       data.getEdges(i, targets);
       for (const unsigned to : targets) result.trees.edges.emplace_back(i, to);

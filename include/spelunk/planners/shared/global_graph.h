@@ -12,7 +12,7 @@
 #include "spelunk/planners/exploration_planner.h"
 #include "spelunk/planners/shared/free_space.h"
 
-namespace spelunk::planners::gbplanner {
+namespace spelunk::planners {
 
 /// A vertex from which unexplored space can be seen.
 struct Frontier {
@@ -86,4 +86,4 @@ class GlobalGraph {
   std::set<Edge> checked_;
 };
 
-}  // namespace spelunk::planners::gbplanner
+}  // namespace spelunk::planners

@@ -1,11 +1,11 @@
-#include "spelunk/planners/gbplanner/global_graph.h"
+#include "spelunk/planners/shared/global_graph.h"
 
 #include <algorithm>
 #include <iterator>
 
 #include "spelunk/common/contract.h"
 
-namespace spelunk::planners::gbplanner {
+namespace spelunk::planners {
 
 using graph::Polyline;
 using graph::VertexId;
@@ -157,4 +157,4 @@ void GlobalGraph::restore(const GraphLayer& layer) {
   for (const auto& [a, b] : layer.edges) join(VertexId{a}, VertexId{b});
 }
 
-}  // namespace spelunk::planners::gbplanner
+}  // namespace spelunk::planners
