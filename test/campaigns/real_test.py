@@ -46,6 +46,12 @@ class Real(support.InTemporaryFolder):
                                     "room__aerial__40__map__informed__default.png",
                                     "room__aerial__40__volume.png"])
 
+    def test_the_executable_takes_every_planner_and_parameter_of_the_shipped_campaigns(self):
+        for name in ("aerial", "aerial_informed", "informed_paper", "walker"):
+            path = support.ROOT / "config" / "campaigns" / f"{name}.yaml"
+            answer = self.campaign(path, "--dry-run")
+            self.assertEqual(answer.returncode, 0, answer.stderr)
+
     def test_what_the_executable_refuses_is_said_before_anything_flies(self):
         answer = self.campaign(self.describe(planners=["gbplaner", "informed"],
                                              robots=["aerial", "walker"],
