@@ -31,10 +31,13 @@ navigation::NavigationParams navigationParams() {
 std::optional<Eigen::Vector3d> pointIn(const std::string& line) {
   std::istringstream stream(line);
   Eigen::Vector3d point;
-  char comma = ',';
-  stream >> point.x() >> comma >> point.y() >> comma >> point.z() >> std::ws;
-  if (stream.fail() || !stream.eof() || comma != ',' || !point.allFinite()) return std::nullopt;
-  return point;
+  char first = ' ';
+  char second = ' ';
+  stream >> point.x() >> first >> point.y() >> second >> point.z();
+  if (stream.fail() || first != ',' || second != ',' || !point.allFinite()) return std::nullopt;
+  std::string rest;
+  stream >> rest;
+  return rest.empty() ? std::optional(point) : std::nullopt;
 }
 
 }  // namespace
