@@ -15,6 +15,12 @@ class ResultsError(Exception):
     """The folder holds nothing to report on."""
 
 
+def read_table(path):
+    """A CSV; the columns of one without rows are numbers like those of the others."""
+    frame = pandas.read_csv(path)
+    return frame.astype(float) if frame.empty else frame
+
+
 @dataclasses.dataclass(frozen=True)
 class Run:
     """One mission; one that crashed or hung has no summary and no tables."""
@@ -33,18 +39,18 @@ class Run:
 
     @functools.cached_property
     def timeline(self):
-        return pandas.read_csv(self.folder / "timeline.csv")
+        return read_table(self.folder / "timeline.csv")
 
     @functools.cached_property
     def clearance(self):
         """None where the mission wrote none."""
         path = self.folder / "clearance.csv"
-        return pandas.read_csv(path) if path.exists() else None
+        return read_table(path) if path.exists() else None
 
     @functools.cached_property
     def plans(self):
         path = self.folder / "plans.csv"
-        return pandas.read_csv(path) if path.exists() else pandas.DataFrame()
+        return read_table(path) if path.exists() else pandas.DataFrame()
 
 
 @dataclasses.dataclass(frozen=True)

@@ -109,6 +109,15 @@ class Report(support.InTemporaryFolder):
         page = (self.out / "report" / "report.html").read_text()
         self.assertIn("No mission of this comparison ended with a result", page)
 
+    def test_missions_that_saw_nothing_make_a_report_too(self):
+        self.fly_without_snakemake(self.describe(planners=["instant"], seeds=[1, 2]))
+        (self.out / "missions" / "room__aerial__instant__default__10__001" / ".plan_view").touch()
+        answer = self.report()
+        self.assertEqual(answer.returncode, 0, answer.stderr)
+        self.assertEqual(answer.stderr, "")
+        page = (self.out / "report" / "report.html").read_text()
+        self.assertIn("<td>0<br><small>0 to 0</small></td><td>–</td>", page)
+
     def test_the_papers_figures_stand_beside_ours(self):
         reference = {"world": "room", "robot": "aerial", "time_limit_s": 10, "vertices": 32,
                      "label": "paper <1>", "edges": 52, "navigation_s": 508, "exploration_s": 595,
