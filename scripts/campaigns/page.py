@@ -44,7 +44,8 @@ def figure_row(series, comparison):
     volumes = [summary["explored_volume_m3"] for summary in found]
     return {
         "label": series.label, "runs": len(found), "failures": series.failures,
-        "volume": spread(volumes), "share": spread([100 * measures.share(volume, reachable) for volume in volumes]),
+        "volume": spread(volumes),
+        "share": spread([100 * measures.share(volume, reachable) for volume in volumes]),
         "times": [time_to_share(series, share * reachable) for share in measures.SHARES],
         "rate": spread([measures.share(summary["explored_volume_m3"], summary["mission_time_s"])
                         for summary in found], 1),
