@@ -119,14 +119,14 @@ def read_best_possible(folder, name):
 
 
 def series_of(runs):
-    """Measured runs by planner and parameter set; the set is named where there are several."""
+    """Measured runs by planner and parameter set, which is named where a planner has several."""
     groups = {}
     for run in runs:
         groups.setdefault((run.outcome["planner"], run.outcome["parameter_set"]), []).append(run)
-    sets = {parameter_set for _, parameter_set in groups}
+    planners = [planner for planner, _ in groups]
     found = []
     for (planner, parameter_set), members in sorted(groups.items()):
-        label = planner if len(sets) == 1 else f"{planner} ({parameter_set})"
+        label = planner if planners.count(planner) == 1 else f"{planner} ({parameter_set})"
         measured = sorted((run for run in members if run.is_measured), key=lambda run: run.seed)
         found.append(Series(planner, label, tuple(measured), len(members) - len(measured)))
     return tuple(found)
