@@ -37,18 +37,22 @@ def robot_problems(campaign, share):
             for robot in sorted({mission.robot for mission in campaign.missions} - set(known))]
 
 
-def executable_problems(campaign, executable, environment, robots):
-    """What the mission executable refuses: unknown planners, wrong parameters, unfit robots."""
+def executable_problems(campaign, executable, environment, robots, folder):
+    """What the mission executable refuses: unknown planners, wrong parameters, unfit robots.
+
+    It is asked in `folder`, where it will fly, if that is there.
+    """
     problems = []
     sets = {(mission.robot, mission.planner, mission.parameter_set, mission.settings)
             for mission in campaign.missions if mission.robot in robots}
     for robot, planner, name, settings in sorted(sets):
-        command = [str(executable), "--robot", robot, "--planner", planner, "--list-params"]
+        command = [str(executable.resolve()), "--robot", robot, "--planner", planner, "--list-params"]
         for key, value in settings:
             command += ["--set", f"{key}={value}"]
         try:
             answer = subprocess.run(command, env=environment, capture_output=True, text=True,
-                                    check=False, timeout=CHECK_LIMIT_S)
+                                    cwd=folder if folder.is_dir() else None, check=False,
+                                    timeout=CHECK_LIMIT_S)
         except (OSError, subprocess.TimeoutExpired) as error:
             return problems + [f"{executable} cannot be asked: {error}"]
         if answer.returncode != 0:
@@ -69,9 +73,9 @@ def differing(campaign, missions_folder):
     return problems
 
 
-def all_problems(campaign, share, executable, environment, missions_folder):
+def all_problems(campaign, share, executable, environment, out):
     """Everything that would keep the campaign from being flown as described."""
     robots = set(names_in(share / "config" / "robots"))
     return (world_problems(campaign, share) + robot_problems(campaign, share)
-            + executable_problems(campaign, executable, environment, robots)
-            + differing(campaign, missions_folder))
+            + executable_problems(campaign, executable, environment, robots, out)
+            + differing(campaign, out / "missions"))

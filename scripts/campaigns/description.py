@@ -3,6 +3,7 @@
     title: Small room, two planners
     parameter_sets:                  # `default` is always there and changes nothing
       fine: {map.resolution_m: 0.1}
+      guided: {oracle.tour: "tours/{world}__{robot}__{time_limit_s}.csv"}  # seen from --out
     groups:                          # every combination within a group is one mission
       - worlds: [room]
         robots: [aerial]
@@ -27,6 +28,8 @@ REFERENCE_KEYS = {"world", "robot", "time_limit_s", "label", "vertices", "edges"
                   "exploration_s", "volume_m3"}
 NAME = re.compile(r"[A-Za-z0-9]+([._-][A-Za-z0-9]+|_)*")
 SET_KEY = re.compile(r"[a-z][a-z0-9_]*(\.[a-z][a-z0-9_]*)+")
+PLACEHOLDER = re.compile(r"{([^{}]*)}")
+PLACEHOLDERS = ("world", "robot", "time_limit_s")
 SEED_RANGE = re.compile(r"(\d+)-(\d+)")
 
 
@@ -91,6 +94,12 @@ def value_text(value):
     if isinstance(value, list):
         return "[" + ",".join(value_text(item) for item in value) + "]"
     return str(value)
+
+
+def filled(settings, values):
+    """The settings with every {world}, {robot} and {time_limit_s} replaced."""
+    return tuple((key, PLACEHOLDER.sub(lambda match: values.get(match[1], match[0]), text))
+                 for key, text in settings)
 
 
 class Reader:
@@ -159,13 +168,20 @@ class Reader:
                 self.problems.append(f"parameter_sets.{name}: must be a map such as "
                                      "{map.resolution_m: 0.1}")
                 continue
-            for key in settings:
-                if not SET_KEY.fullmatch(str(key)):
-                    self.problems.append(f"parameter_sets.{name}: \"{key}\" is no parameter's "
-                                         "name; write section.name")
-            sets[name] = tuple(sorted((str(key), value_text(item))
-                                      for key, item in settings.items()))
+            sets[name] = self.settings(settings, f"parameter_sets.{name}")
         return sets
+
+    def settings(self, settings, where):
+        """Pairs of a parameter and its value as text, in the order of their names."""
+        found = tuple(sorted((str(key), value_text(item)) for key, item in settings.items()))
+        for key, text in found:
+            if not SET_KEY.fullmatch(key):
+                self.problems.append(f"{where}: \"{key}\" is no parameter's name; write "
+                                     "section.name")
+            for unknown in sorted(set(PLACEHOLDER.findall(text)) - set(PLACEHOLDERS)):
+                self.problems.append(f"{where}.{key}: {{{unknown}}} stands for nothing; known: "
+                                     f"{', '.join(PLACEHOLDERS)}")
+        return found
 
     def group(self, group, where, sets):
         """Every mission of one group."""
@@ -183,7 +199,9 @@ class Reader:
             if name not in sets:
                 self.problems.append(f"{where}: parameter set \"{name}\" is not described; known: "
                                      f"{', '.join(sorted(sets))}")
-        return [Mission(world, robot, planner, name, float(time), seed, sets.get(name, ()),
+        return [Mission(world, robot, planner, name, float(time), seed,
+                        filled(sets.get(name, ()), {"world": world, "robot": robot,
+                                                    "time_limit_s": number_text(time)}),
                         float(wall or 60 + 2 * time))
                 for world, robot, planner, name, time, seed
                 in itertools.product(worlds, robots, planners, chosen, times, seeds)]

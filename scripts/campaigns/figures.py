@@ -94,13 +94,14 @@ def draw_volume(comparison, styles, path):
     reachable = comparison.reachable_m3
     explored = max(run.summary["explored_volume_m3"] for series in flown(comparison)
                    for run in series.runs)
-    is_shown = reachable < FAR_ABOVE * explored
+    is_shown = reachable <= FAR_ABOVE * explored
     axes.axhline(reachable, color="#333333", lw=1, ls=(0, (5, 3)),
                  label=f"reachable, {reachable:,.0f} m³{'' if is_shown else ' (far above)'}")
-    axes.set_ylim(top=1.08 * reachable if is_shown else 1.3 * explored)
-    share = axes.secondary_yaxis("right", functions=(lambda volume: 100 * volume / reachable,
-                                                     lambda percent: percent * reachable / 100))
-    share.set_ylabel("share of the reachable volume [%]")
+    axes.set_ylim(top=max(1.08 * reachable if is_shown else 1.3 * explored, 1.0))
+    if reachable > 0:
+        share = axes.secondary_yaxis("right", functions=(lambda volume: 100 * volume / reachable,
+                                                         lambda part: part * reachable / 100))
+        share.set_ylabel("share of the reachable volume [%]")
     axes.legend(loc="best", fontsize=9, framealpha=0.9)
     return finish(figure, path)
 
@@ -173,8 +174,8 @@ def draw_differences(comparison, pairs, path):
 
 
 def plan_of(run):
-    """Layers and frame of a run's map and its timeline; None where it kept no plan view."""
-    if not (run.folder / ".plan_view").exists():
+    """Layers and frame of a run's map and its timeline; None where there is nothing to draw."""
+    if not (run.folder / ".plan_view").exists() or run.timeline.empty:
         return None
     times, _ = plot_mission.read_timeline(run.folder / "timeline.csv")
     return (*plot_mission.read_plan_view(run.folder / ".plan_view"), times)

@@ -70,7 +70,7 @@ def checked_campaign(options):
                       "PATH")
     problems = checks.all_problems(campaign, SHARE, options.mission,
                                    {**os.environ, "SPELUNK_SHARE": str(SHARE)},
-                                   options.out / "missions")
+                                   options.out)
     if problems:
         raise description.DescriptionError(options.file, problems)
     return campaign

@@ -9,9 +9,14 @@ import scipy.stats
 SHARES = (0.5, 0.8, 0.9, 0.95)
 CONFIDENCE = 0.95
 RESAMPLES = 9999
-SEEDS_MIN = 5  # fewer differences give intervals that mean nothing
+SEEDS_MIN = 5  # fewer differences give intervals and effect sizes that mean nothing
 BOOTSTRAP_SEED = 1
 MOVED_M = 0.02  # a second in which the robot went farther counts as navigation
+
+
+def share(part, whole):
+    """Part over whole; not a number where there is no whole."""
+    return part / whole if whole > 0 else np.nan
 
 
 def time_to(run, volume_m3):
@@ -99,7 +104,7 @@ def interval_of_mean(differences):
 
 def effect_size(differences):
     """Cohen's d of paired samples: the mean difference in units of its standard deviation."""
-    if len(differences) < 2 or np.ptp(differences) == 0:
+    if len(differences) < SEEDS_MIN or np.ptp(differences) == 0:
         return np.nan
     return float(np.mean(differences) / np.std(differences, ddof=1))
 

@@ -20,7 +20,7 @@ def number(value, digits=0):
 def spread(values, digits=0):
     """Mean and, below it, the range; the value alone where there is one."""
     values = np.asarray(values, dtype=float)
-    if not values.size:
+    if not np.isfinite(values).any():
         return "–"
     if values.size == 1:
         return number(values[0], digits)
@@ -41,12 +41,13 @@ def figure_row(series, comparison):
     found = [run.summary for run in series.runs]
     plans = measures.plan_times_ms(series)
     reachable = comparison.reachable_m3
-    volumes = np.array([summary["explored_volume_m3"] for summary in found])
+    volumes = [summary["explored_volume_m3"] for summary in found]
     return {
         "label": series.label, "runs": len(found), "failures": series.failures,
-        "volume": spread(volumes), "share": spread(100 * volumes / reachable),
+        "volume": spread(volumes),
+        "share": spread([100 * measures.share(volume, reachable) for volume in volumes]),
         "times": [time_to_share(series, share * reachable) for share in measures.SHARES],
-        "rate": spread([summary["explored_volume_m3"] / summary["mission_time_s"]
+        "rate": spread([measures.share(summary["explored_volume_m3"], summary["mission_time_s"])
                         for summary in found], 1),
         "working_rate": spread([measures.working_rate(run) for run in series.runs], 1),
         "path": spread([summary["path_length_m"] for summary in found]),
@@ -110,8 +111,8 @@ def mission_row(run):
         home = f"{number(summary['remaining_at_home_s'])} s left" if summary["returned_home"] \
             else "not home"
         row.update(volume=number(summary["explored_volume_m3"]), home=home,
-                   share=number(100 * summary["explored_volume_m3"]
-                                / summary["reachable_volume_m3"]),
+                   share=number(100 * measures.share(summary["explored_volume_m3"],
+                                                     summary["reachable_volume_m3"])),
                    path=number(summary["path_length_m"]), time=number(summary["mission_time_s"]),
                    collisions=summary["collisions"])
     return row

@@ -15,6 +15,12 @@ class ResultsError(Exception):
     """The folder holds nothing to report on."""
 
 
+def read_table(path):
+    """A CSV; the columns of one without rows are numbers like those of the others."""
+    frame = pandas.read_csv(path)
+    return frame.astype(float) if frame.empty else frame
+
+
 @dataclasses.dataclass(frozen=True)
 class Run:
     """One mission; one that crashed or hung has no summary and no tables."""
@@ -33,18 +39,18 @@ class Run:
 
     @functools.cached_property
     def timeline(self):
-        return pandas.read_csv(self.folder / "timeline.csv")
+        return read_table(self.folder / "timeline.csv")
 
     @functools.cached_property
     def clearance(self):
         """None where the mission wrote none."""
         path = self.folder / "clearance.csv"
-        return pandas.read_csv(path) if path.exists() else None
+        return read_table(path) if path.exists() else None
 
     @functools.cached_property
     def plans(self):
         path = self.folder / "plans.csv"
-        return pandas.read_csv(path) if path.exists() else pandas.DataFrame()
+        return read_table(path) if path.exists() else pandas.DataFrame()
 
 
 @dataclasses.dataclass(frozen=True)
@@ -113,14 +119,14 @@ def read_best_possible(folder, name):
 
 
 def series_of(runs):
-    """Measured runs by planner and parameter set; the set is named where there are several."""
+    """Measured runs by planner and parameter set, which is named where a planner has several."""
     groups = {}
     for run in runs:
         groups.setdefault((run.outcome["planner"], run.outcome["parameter_set"]), []).append(run)
-    sets = {parameter_set for _, parameter_set in groups}
+    planners = [planner for planner, _ in groups]
     found = []
     for (planner, parameter_set), members in sorted(groups.items()):
-        label = planner if len(sets) == 1 else f"{planner} ({parameter_set})"
+        label = planner if planners.count(planner) == 1 else f"{planner} ({parameter_set})"
         measured = sorted((run for run in members if run.is_measured), key=lambda run: run.seed)
         found.append(Series(planner, label, tuple(measured), len(members) - len(measured)))
     return tuple(found)

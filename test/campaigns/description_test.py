@@ -35,6 +35,17 @@ class Description(unittest.TestCase):
                          "--time-limit-s 40 --set map.range_m=4 "
                          "--set planner.box_m=[24,24.5,10] --set planner.once=true")
 
+    def test_placeholders_stand_for_what_a_mission_is(self):
+        campaign, problems = description.parse({
+            "parameter_sets": {"default": {"oracle.tour": "tours/{world}__{robot}__{time_limit_s}"}},
+            "groups": [{**GROUP, "worlds": ["cave", "room"]}]})
+        self.assertEqual(problems, [])
+        self.assertEqual([mission.settings for mission in campaign.missions],
+                         [(("oracle.tour", "tours/cave__aerial__40"),),
+                          (("oracle.tour", "tours/room__aerial__40"),)])
+        self.assertIn("{seed} stands for nothing; known: world, robot, time_limit_s",
+                      problems_of(parameter_sets={"a": {"oracle.tour": "x{seed}"}})[0])
+
     def test_groups_may_differ(self):
         other = {**GROUP, "worlds": ["cave"], "planners": ["informed"], "wall_limit_s": 7}
         campaign, problems = description.parse({"groups": [GROUP, other]})

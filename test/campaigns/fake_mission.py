@@ -13,7 +13,7 @@ import sys
 import time
 
 PLANNERS = ("steady", "brisk", "stranding", "crashing", "hanging", "refusing", "mute", "patient",
-            "informed")
+            "informed", "instant")
 
 
 def parsed():
@@ -59,12 +59,13 @@ def misbehave(options):
 def write(options):
     """What a mission writes, a plain function of the arguments."""
     rate = 10.0 + options.seed + 5 * (options.planner == "brisk")
-    seconds = range(1, int(options.time_limit_s) + 1)
+    is_instant = options.planner == "instant"  # nothing was seen, and less than a second flown
+    seconds = range(1, 1 if is_instant else int(options.time_limit_s) + 1)
     rows = [f"{t}.000,{rate * t:.3f},{t}.000,{t}.000,{options.seed}.000,1.000,0.000,"
             f"{options.time_limit_s - t:.3f},Explore" for t in seconds]
     (options.out / "timeline.csv").write_text(
         "t_s,explored_m3,distance_m,x_m,y_m,z_m,yaw_rad,remaining_s,state\n"
-        + "\n".join(rows) + "\n")
+        + "".join(f"{row}\n" for row in rows))
     clearance_m = 0.5 + 0.01 * options.seed
     (options.out / "clearance.csv").write_text(
         "t_s,clearance_m\n" + "".join(f"{t}.000,{clearance_m:.3f}\n" for t in seconds))
@@ -76,8 +77,8 @@ def write(options):
         "planner": options.planner, "world": options.world, "robot": options.robot,
         "seed": options.seed, "time_limit_s": options.time_limit_s,
         "outcome": "explored: nothing is left" if home else "stranded: no way home",
-        "mission_time_s": options.time_limit_s, "wall_time_s": time.monotonic(),
-        "explored_volume_m3": rate * int(options.time_limit_s), "reachable_volume_m3": 200.0,
+        "mission_time_s": float(len(seconds)), "wall_time_s": time.monotonic(),
+        "explored_volume_m3": rate * len(seconds), "reachable_volume_m3": 200.0 * (not is_instant),
         "path_length_m": options.time_limit_s, "collisions": 0 if home else 1, "collision_s": 0.0,
         "min_clearance_m": clearance_m, "returned_home": home,
         "remaining_at_home_s": 3.0 if home else 0.0, "falls": 0, "slips": 0, "trips": 0,

@@ -81,9 +81,10 @@ class Pairing(unittest.TestCase):
         self.assertIsNone(measures.paired(series("a", [1], [1]), series("b", [1], [2]), self.final))
 
     def test_effect_size_is_mean_over_standard_deviation(self):
-        self.assertAlmostEqual(measures.effect_size(np.array([1.0, 2, 3])), 2.0)
-        self.assertTrue(np.isnan(measures.effect_size(np.array([2.0, 2, 2]))))
-        self.assertTrue(np.isnan(measures.effect_size(np.array([2.0]))))
+        differences = np.array([1.0, 2, 3, 4, 5])  # variance (4 + 1 + 0 + 1 + 4) / 4
+        self.assertAlmostEqual(measures.effect_size(differences), 3 / np.sqrt(2.5))
+        self.assertTrue(np.isnan(measures.effect_size(np.full(5, 2.0))))
+        self.assertTrue(np.isnan(measures.effect_size(differences[:4])))
 
     def test_the_interval_agrees_with_every_resample_enumerated(self):
         differences = np.array([-3.0, -1.0, 0.0, 1.0, 3.0])  # symmetric: BCa is the percentiles

@@ -103,11 +103,31 @@ class Report(support.InTemporaryFolder):
         page = (self.out / "report" / "report.html").read_text()
         self.assertIn("<small class=\"bad\">2 without result</small></td><td>120</td>", page)
 
+    def test_a_parameter_set_is_named_where_a_planner_has_several(self):
+        group = {"worlds": ["room"], "robots": ["aerial"], "seeds": [1], "time_limits_s": [10]}
+        self.fly_without_snakemake(self.write_description({
+            "parameter_sets": {"a": {"fake.wall_s": 0}, "b": {"fake.wall_s": 0.0}},
+            "groups": [{**group, "planners": ["steady"], "parameter_sets": ["a", "b"]},
+                       {**group, "planners": ["brisk"], "parameter_sets": ["a"]}]}))
+        self.assertEqual(self.report().returncode, 0)
+        page = (self.out / "report" / "report.html").read_text()
+        for label in ("steady (a)", "steady (b)", "brisk"):
+            self.assertIn(f'<td class="label">{label}</td>', page)
+
     def test_only_crashes_make_a_report_too(self):
         self.fly_without_snakemake(self.describe(planners=["crashing"], seeds=[1]))
         self.assertEqual(self.report().returncode, 0)
         page = (self.out / "report" / "report.html").read_text()
         self.assertIn("No mission of this comparison ended with a result", page)
+
+    def test_missions_that_saw_nothing_make_a_report_too(self):
+        self.fly_without_snakemake(self.describe(planners=["instant"], seeds=[1, 2]))
+        (self.out / "missions" / "room__aerial__instant__default__10__001" / ".plan_view").touch()
+        answer = self.report()
+        self.assertEqual(answer.returncode, 0, answer.stderr)
+        self.assertEqual(answer.stderr, "")
+        page = (self.out / "report" / "report.html").read_text()
+        self.assertIn("<td>0<br><small>0 to 0</small></td><td>–</td>", page)
 
     def test_the_papers_figures_stand_beside_ours(self):
         reference = {"world": "room", "robot": "aerial", "time_limit_s": 10, "vertices": 32,
