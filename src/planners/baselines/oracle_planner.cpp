@@ -23,6 +23,9 @@ using graph::Polyline;
 constexpr int kWaysTried = 12;
 constexpr int kWayIterations = 2000;
 
+/// So many times the distance that counts as reached may be left out of a tour.
+constexpr double kSkipped = 3.0;
+
 /// Where a point of the tour is not known to be free, places this near to it serve as well.
 constexpr double kPlaceReach_m = 2.4;
 constexpr double kPlaceStep_m = 0.6;
@@ -92,12 +95,13 @@ struct OraclePlanner::Search {
     return true;
   }
 
-  /// A point counts as reached once the robot is near it or, within one look ahead, a later one.
+  /// A point counts as reached once the robot is near it or one a little later; what is farther on
+  /// may be the end of a detour that is still to be flown.
   void notePassed() {
     double arc_m = 0.0;
     for (std::size_t i = planner.next_; i < tour().size(); ++i) {
       if (i > planner.next_) arc_m += (tour()[i] - tour()[i - 1]).norm();
-      if (arc_m > planner.params_.look_ahead_m) break;
+      if (arc_m > kSkipped * planner.params_.reached_m) break;
       if (isNear(tour()[i])) planner.next_ = i + 1;
     }
   }
