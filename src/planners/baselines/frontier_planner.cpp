@@ -202,7 +202,7 @@ struct FrontierPlanner::Search {
   /// From the end of a way that is `length_m` long: by navigation if that finds one.
   [[nodiscard]] double metresHome(double length_m, const Eigen::Vector3d& end) {
     const double back_m = length_m + planner.trail_.metres();
-    if (!navigatesHome()) return back_m;
+    if (!navigatesHome() && std::isfinite(back_m)) return back_m;
     const auto home = space.navigate(end, request.home.position, "home from a target",
                                      navigation::TreeDetail::kLeaveOut);
     return home.status == navigation::NavigationStatus::kOk ? lengthOf(home.path) : back_m;
@@ -272,17 +272,21 @@ struct FrontierPlanner::Search {
   }
 
   void goHome() {
-    if (navigatesHome()) {
-      const auto answer =
-          space.navigate(root, request.home.position, "home", navigation::TreeDetail::kLeaveOut);
-      if (answer.status == navigation::NavigationStatus::kOk)
-        return finishHome(toLine(answer.path));
-    }
+    if (navigatesHome() && goHomeByNavigation()) return;
     constexpr double kShortcut_m = 8.0;
     const Polyline back = planner.trail_.findWay(space.free());
     if (!back.empty()) return finishHome(space.shortened(back, kShortcut_m));
+    if (!navigatesHome() && goHomeByNavigation()) return;
     result.status = PlanStatus::kNoPath;
     result.reason = "no free way home is known";
+  }
+
+  [[nodiscard]] bool goHomeByNavigation() {
+    const auto answer =
+        space.navigate(root, request.home.position, "home", navigation::TreeDetail::kLeaveOut);
+    if (answer.status != navigation::NavigationStatus::kOk) return false;
+    finishHome(toLine(answer.path));
+    return true;
   }
 
   void finishHome(const Polyline& way) {
