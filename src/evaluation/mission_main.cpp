@@ -9,6 +9,7 @@
 #include <optional>
 #include <sstream>
 
+#include "command_line.h"
 #include "spelunk/common/contract.h"
 #include "spelunk/common/log.h"
 #include "spelunk/common/pin_math.h"
@@ -51,13 +52,6 @@ struct Loaded {
   std::string share_dir;
 };
 
-std::string cacheDir() {
-  if (const char* given = std::getenv("SPELUNK_CACHE")) return given;
-  if (const char* cache = std::getenv("XDG_CACHE_HOME")) return cache + "/spelunk"s;
-  if (const char* home = std::getenv("HOME")) return home + "/.cache/spelunk"s;
-  return "/tmp/spelunk";
-}
-
 Loaded load(const Options& options) {
   Loaded loaded;
   loaded.share_dir = spelunk::mission::shareDir();
@@ -94,25 +88,6 @@ void listParams(const Options& options) {
   printTable(spelunk::describe("delays", loaded.delays));
 }
 
-/// Numbers between commas; none if there is anything else or too few or too many of them.
-std::optional<std::vector<double>> numbersIn(const std::string& text, std::size_t count) {
-  std::stringstream stream(text);
-  std::vector<double> values;
-  for (std::string item; std::getline(stream, item, ',');) {
-    char* end = nullptr;
-    values.push_back(std::strtod(item.c_str(), &end));
-    if (item.empty() || *end != '\0' || !std::isfinite(values.back())) return std::nullopt;
-  }
-  return values.size() == count ? std::optional(values) : std::nullopt;
-}
-
-spelunk::Pose poseFrom(const std::string& text) {
-  const auto values = numbersIn(text, 4);
-  if (!values)
-    throw OutsideError("--start '" + text + "': write it as x,y,z,yaw in metres and radians");
-  return {{values->at(0), values->at(1), values->at(2)}, values->at(3)};
-}
-
 /// "x,y,z" or "x,y,z,method"; the method wins over navigation.method.
 spelunk::evaluation::GoToLeg legFrom(const std::string& text,
                                      const spelunk::navigation::NavigationParams& params) {
@@ -123,7 +98,7 @@ spelunk::evaluation::GoToLeg legFrom(const std::string& text,
     point = text.substr(0, last);
     leg.navigation.method = text.substr(last + 1);
   }
-  const auto values = numbersIn(point, 3);
+  const auto values = spelunk::evaluation::numbersIn(point, 3);
   if (!values || !leg.navigation.problems().empty())
     throw OutsideError(
         "--go-to '" + text +
@@ -131,13 +106,6 @@ spelunk::evaluation::GoToLeg legFrom(const std::string& text,
         "plain_short");
   leg.target = {values->at(0), values->at(1), values->at(2)};
   return leg;
-}
-
-spelunk::Pose startOf(const Options& options, const spelunk::sim::WorldMesh& mesh) {
-  if (!options.start.empty()) return poseFrom(options.start);
-  if (mesh.start) return *mesh.start;
-  throw OutsideError("world '" + options.world +
-                     "' says no start: give --start x,y,z,yaw or a <name>.json beside the mesh");
 }
 
 /// Shows a line in place on a terminal, else one line every ten simulated seconds.
@@ -180,15 +148,15 @@ void sayResult(const spelunk::evaluation::RunRecord& record, double reachable_m3
 int fly(const Options& options, bool quiet) {
   Loaded loaded = load(options);
   spelunk::evaluation::requireWritable(options.out);
-  const auto mesh =
-      spelunk::sim::openWorld(options.world, loaded.share_dir + "/worlds", cacheDir());
+  const auto mesh = spelunk::sim::openWorld(options.world, loaded.share_dir + "/worlds",
+                                            spelunk::sim::defaultCacheDir());
   spelunk::evaluation::RunSetup setup;
   setup.robot = loaded.config.robot;
   setup.sim = loaded.sim;
   setup.map = loaded.config.map;
   setup.mission = loaded.config.mission;
   setup.terrain = loaded.config.terrain;
-  setup.start = startOf(options, mesh);
+  setup.start = spelunk::evaluation::startOf(options.start, options.world, mesh);
   setup.seed = options.seed;
   setup.time_limit_s = options.time_limit_s;
   setup.delays = loaded.delays;

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <limits>
 #include <string>
 #include <utility>
 #include <vector>
@@ -27,12 +29,23 @@ class TriangleTest {
       for (int i = 0; i < 3; ++i) add(Eigen::Vector3d::Unit(i).cross(edge), triangle, half_edge);
   }
 
-  [[nodiscard]] bool meetsCubeAt(const Eigen::Vector3d& centre) const {
+  /// The cubes of a row along x that the triangle meets, by the x of their centres; empty if
+  /// first > second.
+  [[nodiscard]] std::pair<double, double> rowMet(double y, double z) const {
+    double low = -std::numeric_limits<double>::infinity();
+    double high = std::numeric_limits<double>::infinity();
     for (const Slab& slab : slabs_) {
-      const double at = slab.axis.dot(centre);
-      if (at < slab.low || at > slab.high) return false;
+      const double rest = slab.axis.y() * y + slab.axis.z() * z;
+      if (slab.axis.x() == 0.0) {
+        if (rest < slab.low || rest > slab.high) return {1.0, 0.0};
+        continue;
+      }
+      const double from = (slab.low - rest) / slab.axis.x();
+      const double to = (slab.high - rest) / slab.axis.x();
+      low = std::max(low, std::min(from, to));
+      high = std::min(high, std::max(from, to));
     }
-    return true;
+    return {low, high};
   }
 
  private:
@@ -59,11 +72,20 @@ void markTriangle(const Triangle& triangle, VoxelGrid& surface) {
   const Eigen::Vector3d high = triangle[0].cwiseMax(triangle[1]).cwiseMax(triangle[2]);
   const Eigen::Vector3i first = surface.cellOf(low);
   const Eigen::Vector3i last = surface.cellOf(high);
-  const TriangleTest test(triangle, 0.5 * surface.resolution());
+  const double edge = surface.resolution();
+  const TriangleTest test(triangle, 0.5 * edge);
+  const double x_first = surface.centreOf(first).x();
+  const double columns = last.x() - first.x();
   for (int z = first.z(); z <= last.z(); ++z)
-    for (int y = first.y(); y <= last.y(); ++y)
-      for (int x = first.x(); x <= last.x(); ++x)
-        if (test.meetsCubeAt(surface.centreOf({x, y, z}))) surface.set(surface.offsetOf({x, y, z}));
+    for (int y = first.y(); y <= last.y(); ++y) {
+      const Eigen::Vector3i row(first.x(), y, z);
+      const Eigen::Vector3d centre = surface.centreOf(row);
+      const auto [from, to] = test.rowMet(centre.y(), centre.z());
+      const double begin = std::max(0.0, std::ceil((from - x_first) / edge));
+      const double end = std::min(columns, std::floor((to - x_first) / edge));
+      const std::size_t offset = surface.offsetOf(row);
+      for (double x = begin; x <= end; ++x) surface.set(offset + static_cast<std::size_t>(x));
+    }
 }
 
 VoxelGrid surfaceOf(const sim::WorldMesh& mesh, double resolution_m) {
@@ -78,34 +100,31 @@ VoxelGrid surfaceOf(const sim::WorldMesh& mesh, double resolution_m) {
   return surface;
 }
 
-/// The free voxels joined to a start.
-struct Flood {
-  VoxelGrid reached;
-  std::size_t voxels = 0;
-  bool leaks = false;
-};
+/// Whether a cell has no neighbour beyond a side of the grid.
+bool isInside(const VoxelGrid& grid, const Eigen::Vector3i& cell) {
+  return (cell.array() > 0).all() && (cell.array() + 1 < grid.size().array()).all();
+}
 
-Flood floodFrom(const Eigen::Vector3i& start, const VoxelGrid& surface, VoxelGrid empty) {
-  Flood flood{std::move(empty)};
-  std::vector<Eigen::Vector3i> open;
-  const auto visit = [&](const Eigen::Vector3i& cell) {
-    if (!surface.contains(cell)) {
-      flood.leaks = true;
-      return;
-    }
-    const std::size_t offset = surface.offsetOf(cell);
-    if (surface.isSet(offset) || !flood.reached.set(offset)) return;
-    ++flood.voxels;
-    open.push_back(cell);
+/// Fills the free voxels joined to a start.
+void flood(const Eigen::Vector3i& start, const VoxelGrid& surface, ReachableSpace& space) {
+  std::vector<std::size_t> open;
+  const auto visit = [&](std::size_t offset) {
+    if (surface.isSet(offset) || !space.free.set(offset)) return;
+    ++space.free_voxels;
+    open.push_back(offset);
   };
-  visit(start);
+  visit(surface.offsetOf(start));
   while (!open.empty()) {
-    const Eigen::Vector3i cell = open.back();
+    const std::size_t offset = open.back();
     open.pop_back();
-    for (int axis = 0; axis < 3; ++axis)
-      for (const int side : {-1, 1}) visit(cell + side * Eigen::Vector3i::Unit(axis));
+    const Eigen::Vector3i cell = surface.cellAt(offset);
+    space.leaks = space.leaks || !isInside(surface, cell);
+    for (int axis = 0; axis < 3; ++axis) {
+      const std::size_t stride = surface.offsetOf(Eigen::Vector3i::Unit(axis));
+      if (cell(axis) > 0) visit(offset - stride);
+      if (cell(axis) + 1 < surface.size()(axis)) visit(offset + stride);
+    }
   }
-  return flood;
 }
 
 bool touches(const VoxelGrid& reached, const Eigen::Vector3i& cell) {
@@ -118,21 +137,18 @@ bool touches(const VoxelGrid& reached, const Eigen::Vector3i& cell) {
   return false;
 }
 
-std::size_t countTouched(const VoxelGrid& surface, const VoxelGrid& reached) {
-  std::size_t count = 0;
-  for (int z = 0; z < surface.size().z(); ++z)
-    for (int y = 0; y < surface.size().y(); ++y)
-      for (int x = 0; x < surface.size().x(); ++x) {
-        const Eigen::Vector3i cell(x, y, z);
-        if (surface.isSet(surface.offsetOf(cell)) && touches(reached, cell)) ++count;
-      }
-  return count;
+void keepTouched(const VoxelGrid& surface, ReachableSpace& space) {
+  surface.forEachSet([&](std::size_t offset) {
+    if (!touches(space.free, surface.cellAt(offset))) return;
+    space.surface.set(offset);
+    ++space.surface_voxels;
+  });
 }
 
 }  // namespace
 
-ReachableVolume reachableVolume(const sim::WorldMesh& mesh, const Eigen::Vector3d& start,
-                                double resolution_m) {
+ReachableSpace reachableSpace(const sim::WorldMesh& mesh, const Eigen::Vector3d& start,
+                              double resolution_m) {
   const VoxelGrid surface = surfaceOf(mesh, resolution_m);
   const Eigen::Vector3i cell = surface.cellOf(start);
   if (!surface.contains(cell))
@@ -141,11 +157,20 @@ ReachableVolume reachableVolume(const sim::WorldMesh& mesh, const Eigen::Vector3
   if (surface.isSet(surface.offsetOf(cell)))
     throw OutsideError("the start lies in the surface of the mesh '" + mesh.name +
                        "': choose one in free space with --start x,y,z,yaw");
-  const Flood flood = floodFrom(cell, surface, VoxelGrid(mesh.bounds(), resolution_m));
-  const std::size_t touched = countTouched(surface, flood.reached);
+  ReachableSpace space{VoxelGrid(mesh.bounds(), resolution_m),
+                       VoxelGrid(mesh.bounds(), resolution_m)};
+  flood(cell, surface, space);
+  keepTouched(surface, space);
+  return space;
+}
+
+ReachableVolume reachableVolume(const sim::WorldMesh& mesh, const Eigen::Vector3d& start,
+                                double resolution_m) {
+  const ReachableSpace space = reachableSpace(mesh, start, resolution_m);
   const double voxel_m3 = resolution_m * resolution_m * resolution_m;
-  return {static_cast<double>(flood.voxels) * voxel_m3, static_cast<double>(touched) * voxel_m3,
-          static_cast<double>(flood.voxels + touched) * voxel_m3, flood.leaks};
+  return {static_cast<double>(space.free_voxels) * voxel_m3,
+          static_cast<double>(space.surface_voxels) * voxel_m3,
+          static_cast<double>(space.free_voxels + space.surface_voxels) * voxel_m3, space.leaks};
 }
 
 }  // namespace spelunk::evaluation

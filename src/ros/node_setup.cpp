@@ -3,7 +3,6 @@
 #include <ros/node_handle.h>
 
 #include <cstdlib>
-#include <filesystem>
 #include <utility>
 
 #include "spelunk/common/contract.h"
@@ -13,17 +12,6 @@
 
 namespace spelunk::bridge {
 namespace {
-
-namespace fs = std::filesystem;
-
-std::string cacheDir() {
-  const char* cache = std::getenv("XDG_CACHE_HOME");
-  const char* home = std::getenv("HOME");
-  const fs::path base = cache && *cache ? fs::path(cache)
-                        : home && *home ? fs::path(home) / ".cache"
-                                        : fs::temp_directory_path();
-  return (base / "spelunk").string();
-}
 
 /// The node's own parameters before anything else is read, to know which files to read. Problems
 /// are reported when everything is read again.
@@ -98,7 +86,7 @@ SimSetup loadSimSetup(const ::ros::NodeHandle& private_node) {
   SimSetup setup;
   setup.node = readNodeParams<SimNodeParams>(given);
   if (setup.node.worlds_dir.empty()) setup.node.worlds_dir = setup.node.share_dir + "/worlds";
-  if (setup.node.cache_dir.empty()) setup.node.cache_dir = cacheDir();
+  if (setup.node.cache_dir.empty()) setup.node.cache_dir = sim::defaultCacheDir();
   CloudParams cloud;
   mission::RunConfig config = loadConfig(given, setup.node, setup.node.planner, setup.sim, cloud);
   (void)planners::makePlanner(config.planner, config.tree, config.robot, config.map.resolution_m);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdlib>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
@@ -126,6 +127,20 @@ bool looksLikePath(const std::string& text) {
 }
 
 }  // namespace
+
+std::string defaultCacheDir() {
+  const auto valueOf = [](const char* name) {
+    const char* value = std::getenv(name);
+    return std::string(value != nullptr ? value : "");
+  };
+  if (const std::string given = valueOf("SPELUNK_CACHE"); !given.empty()) return given;
+  const std::string cache = valueOf("XDG_CACHE_HOME");
+  const std::string home = valueOf("HOME");
+  const fs::path base = !cache.empty()  ? fs::path(cache)
+                        : !home.empty() ? fs::path(home) / ".cache"
+                                        : fs::temp_directory_path();
+  return (base / "spelunk").string();
+}
 
 WorldMesh openWorld(const std::string& name_or_path, const std::string& worlds_dir,
                     const std::string& cache_dir) {

@@ -34,6 +34,12 @@ class VoxelGrid {
                (static_cast<std::size_t>(cell.y()) +
                 static_cast<std::size_t>(size_.y()) * static_cast<std::size_t>(cell.z()));
   }
+  [[nodiscard]] Eigen::Vector3i cellAt(std::size_t offset) const {
+    const auto row = static_cast<std::size_t>(size_.x());
+    const auto layer = row * static_cast<std::size_t>(size_.y());
+    return {static_cast<int>(offset % row), static_cast<int>(offset % layer / row),
+            static_cast<int>(offset / layer)};
+  }
   [[nodiscard]] bool isSet(std::size_t offset) const {
     return (words_[offset >> 6] >> (offset & 63) & 1) != 0;
   }
@@ -44,6 +50,13 @@ class VoxelGrid {
     const bool is_new = (word & bit) == 0;
     word |= bit;
     return is_new;
+  }
+  /// Calls `visit` with the offset of every bit that is set, in ascending order.
+  template <class Visit>
+  void forEachSet(Visit&& visit) const {
+    for (std::size_t word = 0; word < words_.size(); ++word)
+      for (std::uint64_t bits = words_[word]; bits != 0; bits &= bits - 1)
+        visit(word * 64 + static_cast<std::size_t>(__builtin_ctzll(bits)));
   }
   void clear(std::size_t offset) { words_[offset >> 6] &= ~(std::uint64_t{1} << (offset & 63)); }
 

@@ -1,0 +1,90 @@
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <cstdlib>
+#include <fstream>
+#include <iostream>
+
+#include "command_line.h"
+#include "spelunk/common/contract.h"
+#include "spelunk/common/pin_math.h"
+#include "spelunk/evaluation/exploration_bound.h"
+#include "spelunk/evaluation/run_report.h"
+#include "spelunk/evaluation/tour_survey.h"
+#include "spelunk/mission/run_config.h"
+#include "spelunk/sim/mesh_scene.h"
+#include "spelunk/sim/world_mesh.h"
+
+namespace {
+
+using spelunk::OutsideError;
+
+constexpr int kExitBadInput = 2;
+
+struct Options {
+  std::string world = "long_wall";
+  std::string robot = "aerial";
+  double time_limit_s = 900.0;
+  std::string out = "best_possible_out";
+  std::string start;
+  std::vector<std::string> assignments;
+};
+
+void writeBound(const std::vector<double>& bound, const std::string& path) {
+  std::ofstream file(path);
+  file << "t_s,explored_m3\n";
+  for (std::size_t second = 0; second < bound.size(); ++second) {
+    char line[64];
+    std::snprintf(line, sizeof line, "%zu.000,%.3f\n", second, bound[second]);
+    file << line;
+  }
+  file.flush();
+  if (!file)
+    throw OutsideError("cannot write '" + path + "': is the folder writable, the disk full?");
+}
+
+void survey(const Options& options) {
+  const std::string share_dir = spelunk::mission::shareDir();
+  const auto config =
+      spelunk::mission::loadRunConfig({share_dir, options.robot, "gbplanner", options.assignments});
+  spelunk::evaluation::requireWritable(options.out);
+  const auto mesh = spelunk::sim::openWorld(options.world, share_dir + "/worlds",
+                                            spelunk::sim::defaultCacheDir());
+  const spelunk::Pose start = spelunk::evaluation::startOf(options.start, options.world, mesh);
+  const spelunk::evaluation::ExplorationBound bound(mesh, start, config.robot);
+  const std::vector<double> over = bound.over(options.time_limit_s);
+  writeBound(over, options.out + "/bound.csv");
+  const spelunk::sim::MeshScene scene(mesh);
+  const auto tour = spelunk::evaluation::surveyForTour(mesh, scene, start, config.robot);
+  spelunk::evaluation::writeSurvey(tour, options.out);
+  std::printf("no planner explores more than %.0f m3 in %.0f s; %zu outlooks surveyed\n",
+              over.back(), options.time_limit_s, tour.outlooks.size());
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  spelunk::pinMathLibrary(argc, argv);
+  CLI::App app{
+      "Bounds what any planner can explore in a world and surveys it for a tour that knows it"};
+  app.option_defaults()->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
+  Options options;
+  app.add_option("--world", options.world, "name from worlds/ or path of a mesh");
+  app.add_option("--robot", options.robot, "name from config/robots");
+  app.add_option("--time-limit-s", options.time_limit_s, "the robot is home before this time")
+      ->check(CLI::Range(1.0, 1e6));
+  app.add_option("--out", options.out, "folder for bound.csv, survey.json and survey_seen.bin");
+  app.add_option("--start", options.start, "x,y,z,yaw; wins over the world's own");
+  app.add_option("--set", options.assignments, "section.name=value, any parameter")->take_all();
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? EXIT_SUCCESS : kExitBadInput;
+  }
+  try {
+    survey(options);
+    return EXIT_SUCCESS;
+  } catch (const OutsideError& error) {
+    std::cerr << "best_possible: " << error.what() << '\n';
+    return kExitBadInput;
+  }
+}

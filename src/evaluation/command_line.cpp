@@ -1,0 +1,34 @@
+#include "command_line.h"
+
+#include <cmath>
+#include <cstdlib>
+#include <sstream>
+
+#include "spelunk/common/contract.h"
+
+namespace spelunk::evaluation {
+
+std::optional<std::vector<double>> numbersIn(const std::string& text, std::size_t count) {
+  std::stringstream stream(text);
+  std::vector<double> values;
+  for (std::string item; std::getline(stream, item, ',');) {
+    char* end = nullptr;
+    values.push_back(std::strtod(item.c_str(), &end));
+    if (item.empty() || *end != '\0' || !std::isfinite(values.back())) return std::nullopt;
+  }
+  return values.size() == count ? std::optional(values) : std::nullopt;
+}
+
+Pose startOf(const std::string& text, const std::string& world, const sim::WorldMesh& mesh) {
+  if (text.empty()) {
+    if (mesh.start) return *mesh.start;
+    throw OutsideError("world '" + world +
+                       "' says no start: give --start x,y,z,yaw or a <name>.json beside the mesh");
+  }
+  const auto values = numbersIn(text, 4);
+  if (!values)
+    throw OutsideError("--start '" + text + "': write it as x,y,z,yaw in metres and radians");
+  return {{values->at(0), values->at(1), values->at(2)}, values->at(3)};
+}
+
+}  // namespace spelunk::evaluation
