@@ -47,6 +47,18 @@ TEST(FrontierRrtStar, PassesByFrontiersFromWhichTooLittleIsSeen) {
   EXPECT_EQ(result.status, PlanStatus::kNothingToGain) << result.reason;
 }
 
+TEST(FrontierRrtStar, CutsALoopOfItsTrailOnTheWayHome) {
+  const FrontierWorld hall = aHall();
+  PlanRequest request = hall.request;
+  double time_s = 0.0;
+  for (const double y : {3.0, 4.0, 5.0}) request.trail.push_back({time_s++, {{4.0, y, 2.5}, 0.0}});
+  for (const double y : {5.0, 4.0, 3.0}) request.trail.push_back({time_s++, {{9.0, y, 2.5}, 0.0}});
+  request.pose.position = {9.0, 3.0, 2.5};
+  const PlanResult home = make(hall, FrontierPlannerParams::forRrtStar()).planHome(request);
+  ASSERT_EQ(home.status, PlanStatus::kOk) << home.reason;
+  EXPECT_NEAR(lengthOf(home.path), 5.0, 0.1);
+}
+
 TEST(FrontierRrtStar, ComesHomeAlongItsTrail) {
   const FrontierWorld hall = aHall();
   PlanRequest request = hall.request;
@@ -64,7 +76,15 @@ TEST(FrontierParams, RefuseAWayMethodThatNavigationDoesNotKnow) {
   params.way_method = "teleport";
   ASSERT_EQ(params.problems().size(), 1U);
   EXPECT_NE(params.problems()[0].find("teleport"), std::string::npos);
-  EXPECT_EQ(FrontierPlannerParams::forRrtStar().navigation().method, "rrt_star");
+}
+
+TEST(FrontierParams, WaysHomeAreRrtConnectsWhereThoseToFrontiersAreRrtStars) {
+  const FrontierPlannerParams params = FrontierPlannerParams::forRrtStar();
+  EXPECT_EQ(params.navigation().method, "rrt_star");
+  EXPECT_EQ(params.homeNavigation().method, "adaptive");
+  EXPECT_GT(params.homeNavigation().iterations, params.navigation().iterations);
+  EXPECT_EQ(FrontierPlannerParams().homeNavigation().iterations,
+            FrontierPlannerParams().navigation().iterations);
 }
 
 TEST(FrontierParams, EveryFrontierIsATargetOfTheNearestOne) {

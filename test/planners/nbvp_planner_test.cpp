@@ -168,6 +168,18 @@ TEST_F(InACorridor, GainsOfTheTreeAreThoseOfTheFormula) {
   }
 }
 
+TEST_F(InACorridor, SamplesOfTheWholeBoxAreOftenLostInRock) {
+  const PlanStats explored = planner().plan(request_).stats;
+  params_.samples = "box";
+  NbvpPlanner planner = this->planner();
+  const PlanResult result = planner.plan(request_);
+  ASSERT_EQ(result.status, PlanStatus::kOk) << result.reason;
+  const auto lost = [](const PlanStats& stats) {
+    return static_cast<double>(stats.rejected_occupied + stats.rejected_unknown) / stats.samples;
+  };
+  EXPECT_GT(lost(result.stats), lost(explored));
+}
+
 TEST_F(InACorridor, ANodeOfACameraLooksAnywhere) {
   SensorModel& camera = robot_.sensor_models.front();
   camera.fov_horizontal_deg = 90.0;
@@ -199,12 +211,13 @@ TEST_F(InACorridor, KeepsARobotWithLegsAtItsHeightAboveTheGround) {
     EXPECT_NEAR(vertex.position.z(), 1.0 + robot_.ride_height_m, kResolution);
 }
 
-TEST(NbvpParams, NamesBothRulesThatAreBroken) {
+TEST(NbvpParams, NamesEveryRuleThatIsBroken) {
   NbvpParams params;
   EXPECT_TRUE(params.problems().empty());
   params.give_up_vertices = params.max_vertices - 1;
   params.edge_length_min_m = params.edge_length_max_m;
-  EXPECT_EQ(params.problems().size(), 2U);
+  params.samples = "everywhere";
+  EXPECT_EQ(params.problems().size(), 3U);
 }
 
 TEST(TiledGain, CountsWhatOneWindowRoundEverythingDoes) {
