@@ -115,15 +115,15 @@ def draw_scale_bar(axes, layers, frame, limits):
                   color="white", ha="center", va="bottom", fontsize=10, zorder=9)
 
 
-def draw_map(axes, layers, frame, times):
-    """The map from above and the way flown on it."""
+def draw_map(axes, layers, frame, times, window=None):
+    """The map from above and the way flown on it, all that is known or a window of it."""
     x0, y0, resolution, z_min = frame
     height, width = layers[0].shape
     x, y = times["x_m"], times["y_m"]
     if width and height:
         axes.imshow(map_image(layers, resolution, z_min), origin="lower", interpolation="nearest",
                     extent=(x0, x0 + width * resolution, y0, y0 + height * resolution))
-    left, right, bottom, top = known_window(layers, x, y, frame)
+    left, right, bottom, top = window or known_window(layers, x, y, frame)
     axes.set_facecolor(UNKNOWN)
     axes.set_xlim(left, right)
     axes.set_ylim(bottom, top)

@@ -1,13 +1,13 @@
 #include "spelunk/evaluation/tour_survey.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <deque>
 #include <fstream>
-#include <map>
+#include <limits>
 #include <nlohmann/json.hpp>
-#include <optional>
+#include <queue>
+#include <unordered_map>
+#include <utility>
 
 #include "spelunk/common/contract.h"
 #include "spelunk/common/sensor_model.h"
@@ -15,118 +15,220 @@
 namespace spelunk::evaluation {
 namespace {
 
-constexpr double kWayStep_m = 0.25;  // between the places of a way that are looked at
+constexpr std::size_t kPointsApart = 4;  // of a way; the positions between them are left out
+
+/// More room than this around the robot's box is no better.
+constexpr float kRoomy_m = 1.2F;
+constexpr float kRoomClass_m = 0.3F;
+
+/// A metre of way without any room counts as so many more.
+constexpr double kNarrowCost = 3.0;
+
+/// The positions of a lattice through the start where the robot has room, joined to it.
+class Lattice {
+ public:
+  Lattice(const sim::WorldMesh& mesh, const sim::MeshScene& scene, const Pose& start,
+          const RobotModel& robot, const SurveyParams& params)
+      : step_m_(params.step_m, params.step_m, params.rise_m) {
+    const AxisAlignedBox bounds = mesh.bounds();
+    const auto cellsTo = [&](const Eigen::Vector3d& corner) -> Eigen::Vector3i {
+      return ((corner - start.position).array() / step_m_.array()).floor().cast<int>();
+    };
+    const Eigen::Vector3i first = cellsTo(bounds.min);
+    size_ = cellsTo(bounds.max) - first + Eigen::Vector3i::Ones();
+    corner_ = start.position + (first.cast<double>().array() * step_m_.array()).matrix();
+    room_m_.assign(static_cast<std::size_t>(size_.cast<std::int64_t>().prod()), kUnseen);
+    const auto roomAt = [&](const Eigen::Vector3d& position) {
+      const Eigen::Vector3d centre = position + robot.box_lift_m * Eigen::Vector3d::UnitZ();
+      const auto room = static_cast<float>(scene.boxDistance(centre, robot.box_m, kRoomy_m));
+      return room < params.margin_m ? kNone : room;
+    };
+    spread(-first, roomAt);
+  }
+
+  /// In the order of a breadth-first search from the start, which comes first.
+  [[nodiscard]] const std::vector<std::size_t>& positions() const { return positions_; }
+
+  [[nodiscard]] Eigen::Vector3d at(std::size_t number) const {
+    return corner_ + (cellOf(number).cast<double>().array() * step_m_.array()).matrix();
+  }
+
+  /// Between the robot's box at a position and the mesh, at most kRoomy_m.
+  [[nodiscard]] float room(std::size_t number) const { return room_m_[number]; }
+
+  /// Calls `visit` with the number and distance of each of the up to 26 neighbours with room.
+  template <class Visit>
+  void forEachNeighbour(std::size_t number, Visit&& visit) const {
+    const Eigen::Vector3i cell = cellOf(number);
+    forEachAround(cell, [&](const Eigen::Vector3i& other) {
+      const std::size_t place = numberOf(other);
+      if (room_m_[place] >= 0.0F)
+        visit(place, ((other - cell).cast<double>().array() * step_m_.array()).matrix().norm());
+    });
+  }
+
+ private:
+  static constexpr float kUnseen = -2.0F;
+  static constexpr float kNone = -1.0F;
+
+  template <class Visit>
+  void forEachAround(const Eigen::Vector3i& cell, Visit&& visit) const {
+    for (int z = -1; z <= 1; ++z)
+      for (int y = -1; y <= 1; ++y)
+        for (int x = -1; x <= 1; ++x) {
+          const Eigen::Vector3i other = cell + Eigen::Vector3i(x, y, z);
+          const bool is_inside =
+              (other.array() >= 0).all() && (other.array() < size_.array()).all();
+          if (is_inside && other != cell) visit(other);
+        }
+  }
+
+  /// The start has room by definition: the robot stands there.
+  template <class Room>
+  void spread(const Eigen::Vector3i& start, const Room& roomAt) {
+    positions_.push_back(numberOf(start));
+    room_m_[positions_.front()] = std::max(0.0F, roomAt(at(positions_.front())));
+    for (std::size_t next = 0; next < positions_.size(); ++next)
+      forEachAround(cellOf(positions_[next]), [&](const Eigen::Vector3i& other) {
+        const std::size_t number = numberOf(other);
+        if (room_m_[number] != kUnseen) return;
+        room_m_[number] = roomAt(at(number));
+        if (room_m_[number] >= 0.0F) positions_.push_back(number);
+      });
+  }
+
+  [[nodiscard]] std::size_t numberOf(const Eigen::Vector3i& cell) const {
+    return static_cast<std::size_t>(cell.x()) +
+           static_cast<std::size_t>(size_.x()) *
+               (static_cast<std::size_t>(cell.y()) +
+                static_cast<std::size_t>(size_.y()) * static_cast<std::size_t>(cell.z()));
+  }
+  [[nodiscard]] Eigen::Vector3i cellOf(std::size_t number) const {
+    const auto row = static_cast<std::size_t>(size_.x());
+    const auto layer = row * static_cast<std::size_t>(size_.y());
+    return {static_cast<int>(number % row), static_cast<int>(number % layer / row),
+            static_cast<int>(number / layer)};
+  }
+
+  Eigen::Vector3d step_m_;
+  Eigen::Vector3d corner_;
+  Eigen::Vector3i size_;
+  std::vector<float> room_m_;  ///< Or kUnseen or kNone.
+  std::vector<std::size_t> positions_;
+};
 
 class Surveyor {
  public:
   Surveyor(const sim::WorldMesh& mesh, const sim::MeshScene& scene, const Pose& start,
            const RobotModel& robot, const SurveyParams& params)
       : scene_(scene),
-        start_(start),
         robot_(robot),
         params_(params),
-        targets_(reachableSpace(mesh, start.position), params.target_m) {
-    for (const SensorModel& sensor : robot.sensor_models)
-      directions_.push_back(rayDirections(sensor));
-  }
+        targets_(reachableSpace(mesh, start.position), params.target_m),
+        lattice_(mesh, scene, start, robot, params) {}
 
   TourSurvey survey() {
+    result_.speed_mps = robot_.speed_max_mps;
     result_.volumes_m3 = targets_.volumes_m3();
-    spread();
     chooseOutlooks();
-    for (const std::uint32_t outlook : result_.outlooks) look(result_.places[outlook]);
+    for (std::uint32_t outlook = 0; outlook < outlooks_.size(); ++outlook) findWays(outlook);
+    for (const Eigen::Vector3d& outlook : result_.outlooks) look(outlook);
     return std::move(result_);
   }
 
  private:
-  using Place = std::array<int, 3>;
+  /// What is known of a position while ways from one outlook are searched.
+  struct Reached {
+    double cost = std::numeric_limits<double>::infinity();  ///< Metres, narrow ones counted more.
+    double metres = 0.0;
+    std::size_t before = 0;
+    bool is_final = false;
+  };
+  using Reach = std::unordered_map<std::size_t, Reached>;
 
-  [[nodiscard]] Eigen::Vector3d positionOf(const Place& place) const {
-    return start_.position + Eigen::Vector3d(params_.spacing_m * place[0],
-                                             params_.spacing_m * place[1],
-                                             params_.layer_m * place[2]);
-  }
-
-  [[nodiscard]] bool hasRoom(const Eigen::Vector3d& position) const {
-    const Eigen::Vector3d centre = position + robot_.box_lift_m * Eigen::Vector3d::UnitZ();
-    return scene_.boxDistance(centre, robot_.box_m, params_.margin_m + 0.01) >= params_.margin_m;
-  }
-
-  [[nodiscard]] bool isOpen(const Eigen::Vector3d& from, const Eigen::Vector3d& to) const {
-    const double length = (to - from).norm();
-    const int steps = static_cast<int>(std::ceil(length / kWayStep_m));
-    for (int k = 1; k <= steps; ++k)
-      if (!hasRoom(from + (to - from) * k / steps)) return false;
-    return !scene_.castRay(from, (to - from) / length, length);
-  }
-
-  /// The number of a place, added if it is new and has room.
-  [[nodiscard]] std::optional<std::uint32_t> numberAt(const Place& place) {
-    const auto [entry, is_new] = numbers_.try_emplace(place, std::nullopt);
-    if (!is_new) return entry->second;
-    const Eigen::Vector3d position = positionOf(place);
-    if (!targets_.find(position) || !hasRoom(position)) return std::nullopt;
-    entry->second = static_cast<std::uint32_t>(result_.places.size());
-    result_.places.push_back(position);
-    return entry->second;
-  }
-
-  /// Breadth first from the start; a place is added when an open way leads to it.
-  void spread() {
-    numbers_[{0, 0, 0}] = 0;
-    result_.places.push_back(start_.position);
-    std::deque<Place> open{{0, 0, 0}};
-    while (!open.empty()) {
-      const Place place = open.front();
-      open.pop_front();
-      for (int z = -1; z <= 1; ++z)
-        for (int y = -1; y <= 1; ++y)
-          for (int x = -1; x <= 1; ++x)
-            if (x != 0 || y != 0 || z != 0)
-              join(place, {place[0] + x, place[1] + y, place[2] + z}, open);
-    }
-  }
-
-  void join(const Place& place, const Place& other, std::deque<Place>& open) {
-    const Eigen::Vector3d from = positionOf(place);
-    const Eigen::Vector3d to = positionOf(other);
-    const auto known = numbers_.find(other);
-    if (known != numbers_.end() && (!known->second || *known->second < *numbers_[place])) return;
-    const bool is_known = known != numbers_.end();
-    if (!targets_.find(to) || !hasRoom(to)) {
-      numbers_[other] = std::nullopt;
-      return;
-    }
-    if (!isOpen(from, to)) return;
-    const auto number = numberAt(other);
-    if (!number) return;
-    if (!is_known) open.push_back(other);
-    result_.ways.push_back({*numbers_[place], *number, (to - from).norm()});
-  }
-
-  /// In the order the places were found, so from the start outwards.
+  /// The start, then where there is most room, so that tours keep to the middle of passages.
   void chooseOutlooks() {
-    for (std::uint32_t place = 0; place < result_.places.size(); ++place) {
-      const auto isNear = [&](std::uint32_t outlook) {
-        return (result_.places[outlook] - result_.places[place]).norm() < params_.outlook_m;
-      };
-      if (std::none_of(result_.outlooks.begin(), result_.outlooks.end(), isNear))
-        result_.outlooks.push_back(place);
+    std::vector<std::size_t> positions = lattice_.positions();
+    const auto roomClass = [this](std::size_t position) {
+      return static_cast<int>(lattice_.room(position) / kRoomClass_m);
+    };
+    std::stable_sort(positions.begin() + 1, positions.end(),
+                     [&](std::size_t a, std::size_t b) { return roomClass(a) > roomClass(b); });
+    for (const std::size_t position : positions)
+      if (!isOverlooked(lattice_.at(position))) addOutlook(position);
+  }
+
+  void addOutlook(std::size_t position) {
+    number_of_.emplace(position, static_cast<std::uint32_t>(outlooks_.size()));
+    outlooks_.push_back(position);
+    result_.outlooks.push_back(lattice_.at(position));
+  }
+
+  /// Whether an outlook near a place sees it.
+  [[nodiscard]] bool isOverlooked(const Eigen::Vector3d& place) const {
+    return std::any_of(
+        result_.outlooks.begin(), result_.outlooks.end(), [&](const Eigen::Vector3d& outlook) {
+          const double gap = (place - outlook).norm();
+          return gap < params_.outlook_m &&
+                 (gap < params_.step_m || !scene_.castRay(outlook, (place - outlook) / gap, gap));
+        });
+  }
+
+  /// Dijkstra as far as way_max_m; notes the ways to outlooks of higher numbers.
+  void findWays(std::uint32_t outlook) {
+    Reach reach;
+    using Entry = std::pair<double, std::size_t>;
+    std::priority_queue<Entry, std::vector<Entry>, std::greater<>> open;
+    reach[outlooks_[outlook]].cost = 0.0;
+    open.emplace(0.0, outlooks_[outlook]);
+    while (!open.empty()) {
+      const auto [cost, position] = open.top();
+      open.pop();
+      if (std::exchange(reach[position].is_final, true)) continue;
+      const double metres = reach[position].metres;
+      const auto other = number_of_.find(position);
+      if (other != number_of_.end() && other->second > outlook)
+        note(outlook, other->second, metres, reach);
+      lattice_.forEachNeighbour(position, [&, base = cost](std::size_t next, double step_m) {
+        Reached& there = reach[next];
+        const double total = base + step_m * narrowness(next);
+        if (metres + step_m > params_.way_max_m || total >= there.cost) return;
+        there.cost = total;
+        there.metres = metres + step_m;
+        there.before = position;
+        open.emplace(total, next);
+      });
     }
   }
 
-  void look(const Eigen::Vector3d& place) {
+  /// What a metre to a position counts.
+  [[nodiscard]] double narrowness(std::size_t position) const {
+    return 1.0 + kNarrowCost * (1.0 - lattice_.room(position) / kRoomy_m);
+  }
+
+  void note(std::uint32_t from, std::uint32_t to, double metres, Reach& reach) {
+    TourSurvey::Way way{from, to, metres, {result_.outlooks[to]}};
+    std::size_t count = 0;
+    for (std::size_t at = outlooks_[to]; at != outlooks_[from]; at = reach[at].before)
+      if (++count % kPointsApart == 0) way.points.push_back(lattice_.at(at));
+    way.points.push_back(result_.outlooks[from]);
+    std::reverse(way.points.begin(), way.points.end());
+    result_.ways.push_back(std::move(way));
+  }
+
+  void look(const Eigen::Vector3d& outlook) {
     std::vector<std::uint8_t> seen((targets_.size() + 7) / 8, 0);
-    for (std::size_t k = 0; k < directions_.size(); ++k) {
-      const SensorModel& sensor = robot_.sensor_models[k];
-      const Eigen::Isometry3d T_base_sensor = spelunk::T_base_sensor(sensor);
-      const Eigen::Vector3d origin = place + T_base_sensor.translation();
-      std::vector<Eigen::Vector3f> turned;
-      for (const Eigen::Vector3f& direction : directions_[k])
-        turned.emplace_back(T_base_sensor.linear().cast<float>() * direction);
-      scene_.castFan(origin.cast<float>(), turned, static_cast<float>(sensor.range_max_m), ranges_);
-      for (std::size_t i = 0; i < turned.size(); ++i)
-        mark(origin, turned[i].cast<double>(), ranges_[i], seen);
+    std::vector<float> ranges;
+    for (const SensorModel& sensor : robot_.sensor_models) {
+      const Eigen::Isometry3d mount = T_base_sensor(sensor);
+      const Eigen::Vector3d origin = outlook + mount.translation();
+      std::vector<Eigen::Vector3f> directions = rayDirections(sensor);
+      for (Eigen::Vector3f& direction : directions)
+        direction = mount.linear().cast<float>() * direction;
+      scene_.castFan(origin.cast<float>(), directions, static_cast<float>(sensor.range_max_m),
+                     ranges);
+      for (std::size_t i = 0; i < directions.size(); ++i)
+        mark(origin, directions[i].cast<double>(), ranges[i], seen);
     }
     result_.seen.push_back(std::move(seen));
   }
@@ -140,19 +242,24 @@ class Surveyor {
   }
 
   const sim::MeshScene& scene_;
-  Pose start_;
   const RobotModel& robot_;
   SurveyParams params_;
   TargetVoxels targets_;
-  std::vector<std::vector<Eigen::Vector3f>> directions_;   ///< One list a sensor.
-  std::map<Place, std::optional<std::uint32_t>> numbers_;  ///< None: no room there.
-  std::vector<float> ranges_;
+  Lattice lattice_;
+  std::vector<std::size_t> outlooks_;  ///< Their positions.
+  std::unordered_map<std::size_t, std::uint32_t> number_of_;
   TourSurvey result_;
 };
 
 void requireWritten(const std::ofstream& file, const std::string& path) {
   if (!file)
     throw OutsideError("cannot write '" + path + "': is the folder writable, the disk full?");
+}
+
+nlohmann::json toJson(const std::vector<Eigen::Vector3d>& points) {
+  nlohmann::json json = nlohmann::json::array();
+  for (const Eigen::Vector3d& point : points) json.push_back({point.x(), point.y(), point.z()});
+  return json;
 }
 
 }  // namespace
@@ -164,12 +271,14 @@ TourSurvey surveyForTour(const sim::WorldMesh& mesh, const sim::MeshScene& scene
 
 void writeSurvey(const TourSurvey& survey, const std::string& folder) {
   nlohmann::json json;
-  for (const Eigen::Vector3d& point : survey.places)
-    json["places"].push_back({point.x(), point.y(), point.z()});
+  json["speed_mps"] = survey.speed_mps;
+  json["outlooks"] = toJson(survey.outlooks);
   json["ways"] = nlohmann::json::array();
   for (const TourSurvey::Way& way : survey.ways)
-    json["ways"].push_back({way.from, way.to, way.length_m});
-  json["outlooks"] = survey.outlooks;
+    json["ways"].push_back({{"from", way.from},
+                            {"to", way.to},
+                            {"length_m", way.length_m},
+                            {"points", toJson(way.points)}});
   json["volumes_m3"] = survey.volumes_m3;
   const std::string text_path = folder + "/survey.json";
   std::ofstream text(text_path);

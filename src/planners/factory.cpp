@@ -5,11 +5,14 @@
 #include "spelunk/common/contract.h"
 #include "spelunk/planners/baselines/frontier_planner.h"
 #include "spelunk/planners/baselines/nbvp_planner.h"
+#include "spelunk/planners/baselines/oracle_planner.h"
 #include "spelunk/planners/gbplanner/gb_planner.h"
 #include "spelunk/planners/informed/informed_planner.h"
 
 namespace spelunk::planners {
 namespace {
+
+constexpr const char* kOracle = "oracle";
 
 template <class Params>
 Params paramsOf(const std::string& section, ParamTree& tree, Params params = {}) {
@@ -28,7 +31,8 @@ Params checkedParamsOf(const std::string& section, ParamTree& tree, const Params
 [[noreturn]] void refuseUnknown(const std::string& name) {
   std::string known;
   for (const std::string& each : plannerNames()) known += (known.empty() ? "" : ", ") + each;
-  throw OutsideError("planner \"" + name + "\" is not known; choose one of: " + known);
+  throw OutsideError("planner \"" + name + "\" is not known; choose one of: " + known + ", " +
+                     kOracle);
 }
 
 std::optional<baselines::Preference> preferenceOf(const std::string& name) {
@@ -60,6 +64,7 @@ std::vector<std::string> plannerNames() {
 std::vector<ParamDescription> describePlanner(const std::string& name, ParamTree& tree) {
   if (name == "gbplanner") return describe(name, paramsOf<gbplanner::GbPlannerParams>(name, tree));
   if (name == "informed") return describe(name, paramsOf<informed::InformedParams>(name, tree));
+  if (name == kOracle) return describe(name, paramsOf<baselines::OracleParams>(name, tree));
   if (name == "nbvp") return describe(name, paramsOf<baselines::NbvpParams>(name, tree));
   if (preferenceOf(name)) return describe(name, paramsOf(name, tree, frontierDefaults(name)));
   refuseUnknown(name);
@@ -78,6 +83,11 @@ std::unique_ptr<ExplorationPlanner> makePlanner(const std::string& name, ParamTr
   if (name == "nbvp")
     return std::make_unique<baselines::NbvpPlanner>(
         checkedParamsOf<baselines::NbvpParams>(name, tree), robot, resolution_m);
+  if (name == kOracle) {
+    const auto params = paramsOf<baselines::OracleParams>(name, tree);
+    return std::make_unique<baselines::OraclePlanner>(params, baselines::readTour(params.tour),
+                                                      robot);
+  }
   if (const auto preference = preferenceOf(name)) {
     requireFlying(name, robot);
     return std::make_unique<baselines::FrontierPlanner>(

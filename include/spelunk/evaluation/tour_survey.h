@@ -14,38 +14,39 @@ namespace spelunk::evaluation {
 
 /// How finely a world is surveyed for a tour that knows it.
 struct SurveyParams {
-  double spacing_m = 1.25;  ///< Between places in plan.
-  double layer_m = 1.0;     ///< Between places in height.
-  double outlook_m = 2.0;   ///< Outlooks are at least this far apart.
-  double margin_m = 0.2;    ///< Kept between the robot's box and the mesh.
+  double step_m = 0.3;      ///< Between the positions ways lead through, in plan.
+  double rise_m = 0.4;      ///< The same in height.
+  double margin_m = 0.1;    ///< Kept between the robot's box and the mesh: maps are coarse.
+  double outlook_m = 3.5;   ///< Outlooks that see each other are at least this far apart.
+  double way_max_m = 12.0;  ///< Longest way between two outlooks that is noted.
   double target_m = 0.8;    ///< Edge of a voxel that is seen or not.
 };
 
-/// Places of a known world, the straight ways between them, and what a standing, level robot sees
-/// from some of them. Place 0 is the start.
+/// Outlooks in a known world, short ways between them, and what a standing, level robot sees from
+/// each. Outlook 0 is the start.
 struct TourSurvey {
   struct Way {
-    std::uint32_t from;
-    std::uint32_t to;
-    double length_m;
+    std::uint32_t from = 0;
+    std::uint32_t to = 0;
+    double length_m = 0.0;
+    std::vector<Eigen::Vector3d> points;  ///< Both ends included.
   };
-  std::vector<Eigen::Vector3d> places;
+  double speed_mps = 0.0;  ///< Of the robot.
+  std::vector<Eigen::Vector3d> outlooks;
   std::vector<Way> ways;
-  std::vector<std::uint32_t> outlooks;  ///< Places that were looked from; 0 is the first.
   std::vector<std::vector<std::uint8_t>>
       seen;                        ///< One bit a target voxel an outlook, lowest first.
   std::vector<double> volumes_m3;  ///< Of the target voxels.
 };
 
-/// Surveys what can be reached from the start by straight ways between places, the box of the
-/// robot (axis-aligned) and the margin never meeting the mesh. Throws OutsideError as
-/// reachableVolume() does.
+/// Surveys what the robot's box (axis-aligned) and the margin can reach from the start without
+/// meeting the mesh. Throws OutsideError as reachableVolume() does.
 [[nodiscard]] TourSurvey surveyForTour(const sim::WorldMesh& mesh, const sim::MeshScene& scene,
                                        const Pose& start, const RobotModel& robot,
                                        const SurveyParams& params = {});
 
-/// Writes survey.json (places, ways, outlooks, volumes_m3) and survey_seen.bin (a row of bytes an
-/// outlook) into a folder. Throws OutsideError.
+/// Writes survey.json (speed_mps, outlooks, ways, volumes_m3) and survey_seen.bin (a row of bytes
+/// an outlook) into a folder. Throws OutsideError.
 void writeSurvey(const TourSurvey& survey, const std::string& folder);
 
 }  // namespace spelunk::evaluation

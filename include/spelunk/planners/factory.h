@@ -10,7 +10,7 @@
 
 namespace spelunk::planners {
 
-/// Names that makePlanner() knows.
+/// The planners that explore. makePlanner() knows one more, "oracle", which flies a given tour.
 [[nodiscard]] std::vector<std::string> plannerNames();
 
 /// The parameters of planner `name` as `tree` sets them, for tables. Throws as makePlanner() does.
