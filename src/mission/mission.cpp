@@ -109,6 +109,13 @@ Path Mission::activePath() const {
   return impl_->active ? impl_->ofBase(impl_->active->waypoints()) : Path{};
 }
 
+std::optional<navigation::NavigationAnswer> Mission::goToPlan() const {
+  if (!impl_->go_to) return std::nullopt;
+  navigation::NavigationAnswer plan = impl_->go_to->plan;
+  plan.path = impl_->ofBase(std::move(plan.path));
+  return plan;
+}
+
 Path Mission::wayHome() const { return impl_->ofBase(impl_->way_home); }
 Path Mission::trail() const {
   return impl_->home_graph ? impl_->ofBase(impl_->home_graph->trail()) : Path{};

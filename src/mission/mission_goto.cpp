@@ -21,6 +21,7 @@ std::optional<navigation::NavigationQuery> Mission::Impl::goToQuery(const Eigen:
   query.box = robot.box_m;
   query.bounds = limits;
   query.zones = no_go;
+  query.trees = navigation::TreeDetail::kKeep;  // people look at them
   return query;
 }
 
@@ -70,7 +71,7 @@ Answer Mission::Impl::goTo(const navigation::NavigationParams& navigation_params
 void Mission::Impl::stepGoTo() {
   if (goal != Goal::kGoTo || running || pending || !inputs_ok) return;
   if (active) return lookAhead();
-  const bool is_flown = go_to->taken_up_m >= lengthOf(go_to->plan) - kEnd_m;
+  const bool is_flown = go_to->taken_up_m >= lengthOf(go_to->plan.path) - kEnd_m;
   if (go_to->cause == ReplanCause::kNone && is_flown)
     return endGoTo(GoToOutcome::kReached, "reached the point that was asked for");
   if (!isAtRest()) return;

@@ -30,8 +30,8 @@ NoGoZone unseenAround(const Eigen::Vector3d& place) {
 
 /// Whether something occupied lies anywhere on what is left of the plan.
 bool Mission::Impl::isPlanBlocked() {
-  const double here = project(go_to->plan, input.latest()->pose.position).arc_m;
-  const Path rest = slice(go_to->plan, here, lengthOf(go_to->plan));
+  const double here = project(go_to->plan.path, input.latest()->pose.position).arc_m;
+  const Path rest = slice(go_to->plan.path, here, lengthOf(go_to->plan.path));
   map::ConfigurationSpace& open = spaceOf(robot.box_m, map::Passable::kNotOccupied);
   for (std::size_t i = 1; i < rest.size(); ++i)
     if (!open.isSweepFree(rest[i - 1].position, rest[i].position)) return true;
@@ -39,9 +39,9 @@ bool Mission::Impl::isPlanBlocked() {
 }
 
 void Mission::Impl::takeUpMore() {
-  const double length = lengthOf(go_to->plan);
+  const double length = lengthOf(go_to->plan.path);
   if (go_to->taken_up_m >= length - kEnd_m) return;
-  const Path rest = slice(go_to->plan, go_to->taken_up_m, length);
+  const Path rest = slice(go_to->plan.path, go_to->taken_up_m, length);
   const auto check = navigation::checkPath(spaceOf(robot.box_m), rest, no_go, limits);
   if (!check.isFree() && check.fault != navigation::PathFault::kUnknown) {
     go_to->cause = ReplanCause::kObstacle;
@@ -54,7 +54,7 @@ void Mission::Impl::takeUpMore() {
 }
 
 std::string Mission::Impl::flyPlan(double from_m, double to_m) {
-  const Path part = slice(go_to->plan, from_m, to_m);
+  const Path part = slice(go_to->plan.path, from_m, to_m);
   if (!isWalkable(part)) return "no footing along the way to the point";
   Path whole;
   if (active) {
@@ -67,7 +67,7 @@ std::string Mission::Impl::flyPlan(double from_m, double to_m) {
   if (affordableLength(whole, std::nullopt) < lengthOf(whole))
     return "no way home from farther on the way to the point fits the endurance";
   fly(whole, planners::PathKind::kReposition, robot.box_m,
-      robot.box_m + Eigen::Vector3d::Constant(2.0 * go_to->safe_distance_m));
+      robot.box_m + Eigen::Vector3d::Constant(2.0 * go_to->plan.safe_distance_m));
   go_to->taken_up_m = to_m;
   return "";
 }
@@ -75,8 +75,8 @@ std::string Mission::Impl::flyPlan(double from_m, double to_m) {
 void Mission::Impl::noteUnseen() {
   ++status.go_to.replans_unseen;
   const double gap = 0.5 * robot.box_m.head<2>().norm() + kUnseenAhead_m + kUnseenHalf_m;
-  const double ahead = std::min(go_to->taken_up_m + gap, lengthOf(go_to->plan));
-  go_to->unseen.push_back(unseenAround(poseAt(go_to->plan, ahead).position));
+  const double ahead = std::min(go_to->taken_up_m + gap, lengthOf(go_to->plan.path));
+  go_to->unseen.push_back(unseenAround(poseAt(go_to->plan.path, ahead).position));
 }
 
 void Mission::Impl::replan() {
@@ -135,9 +135,8 @@ void Mission::Impl::acceptGoTo(const navigation::NavigationAnswer& answer) {
 
 void Mission::Impl::installPlan(const navigation::NavigationAnswer& answer) {
   status.go_to.planning_s += 1e-3 * answer.planning_ms;
-  go_to->plan = answer.path;
+  go_to->plan = answer;
   go_to->monitor.emplace(answer.path, robot.box_m, map.params().resolution_m);
-  go_to->safe_distance_m = answer.safe_distance_m;
   go_to->taken_up_m = 0.0;
   go_to->is_suspect = false;
   go_to->stopped_s = now;

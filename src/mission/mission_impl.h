@@ -48,9 +48,10 @@ enum class ReplanCause { kNone, kObstacle, kDeviation };
 /// The flight to a point that was asked for.
 struct GoToTask {
   NavigationJob job;  ///< Of the newest plan.
-  Path plan;          ///< From where the robot was then to the point, unknown space included.
+  /// The newest one; its path leads from where the robot was then to the point, unknown space
+  /// included.
+  navigation::NavigationAnswer plan;
   std::optional<navigation::PathMonitor> monitor;
-  double safe_distance_m = 0.0;  ///< That the plan keeps; rounded corners are to keep it too.
   double taken_up_m = 0.0;       ///< The plan's length up to which it was checked and flown.
   ReplanCause cause = ReplanCause::kNone;
   std::vector<NoGoZone> unseen;  ///< Places on earlier plans that did not come into view.

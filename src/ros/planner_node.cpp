@@ -122,6 +122,7 @@ MissionView PlannerNode::viewOf(MissionCore& core) const {
   if (kindOf(core.mission.robot()) == RobotKind::kLegged) view.mark_scale = kWalkerMarks;
   view.active_path = core.mission.activePath();
   view.kind = core.kind;
+  view.go_to = core.mission.goToPlan();
   view.way_home = core.mission.wayHome();
   view.trail = core.mission.trail();
   view.bounds = core.mission.bounds();

@@ -23,6 +23,7 @@ visualization::Scene sceneOf(const MissionView& view) {
   const bool map_is_known = known.min.allFinite() && known.max.allFinite() && !known.isEmpty();
   const AxisAlignedBox shown = map_is_known ? known : around_robot;
   if (view.graph) visualization::drawGraph(*view.graph, scene);
+  if (view.go_to) visualization::drawNavigation(*view.go_to, scene);
   visualization::drawTrail(view.trail, scene);
   visualization::drawWayHome(view.way_home, scene);
   visualization::drawActivePath(view.active_path, view.kind, scene);

@@ -77,7 +77,12 @@ TEST(GoTo, FliesToAKnownPointWithoutReplansAndHolds) {
 TEST(GoTo, TakesUpMoreOfTheSamePathAsItComesIntoView) {
   Flight flight(test::corridorWorld(60.0));
   const Eigen::Vector3d point(52.0, 2.5, 2.5);  // the map reaches 12 m
+  EXPECT_FALSE(flight.scripted.mission().goToPlan());
   ASSERT_TRUE(flight.goTo(point).accepted);
+  const auto plan = flight.scripted.mission().goToPlan();
+  ASSERT_TRUE(plan);
+  EXPECT_LT((plan->path.back().position - point).norm(), 1e-6);
+  EXPECT_LT(plan->known_length_m, 0.5 * lengthOf(plan->path));
   const GoToStatus end = flight.flyToItsEnd();
   EXPECT_EQ(end.outcome, GoToOutcome::kReached) << end.reason;
   EXPECT_EQ(replansOf(end), 0) << "more of the same path is no replan";

@@ -4,6 +4,7 @@
 #include <ros/publisher.h>
 
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "spelunk/mission/mission.h"
@@ -20,6 +21,7 @@ struct MissionView {
   double mark_scale = 1.0;  ///< Size of lines, points and letters.
   Path active_path;
   planners::PathKind kind = planners::PathKind::kLocal;
+  std::optional<navigation::NavigationAnswer> go_to;  ///< While it flies to a point.
   Path way_home;
   Path trail;
   AxisAlignedBox bounds;
