@@ -1,6 +1,6 @@
 """Lays out a tour through a world that is known: which outlooks, in which order.
 
-    python3 -m campaigns.tour FOLDER --time-limit-s T [--speed-share S]
+    python3 -m campaigns.tour FOLDER --time-limit-s T [--out DIR] [--speed-share S]
 
 Reads survey.json and survey_seen.bin, writes tour_points.csv (x_m,y_m,z_m) and tour.json. This is an
 orienteering problem whose prize is a volume that many outlooks share. It begins with the outlooks
@@ -132,7 +132,7 @@ def begun(survey, budget_m):
     for exponent in EXPONENTS:
         tour = Tour(survey)
         extend(tour, budget_m, exponent)
-        reorder(tour, Search.GUIDED_LOCAL_SEARCH)
+        reorder(tour, Search.GREEDY_DESCENT)
         extend(tour, budget_m, exponent)
         found.append(tour)
     return max(found, key=lambda tour: tour.volume)
@@ -194,7 +194,8 @@ def write(tour, budget_m, folder):
 
 def main():
     parser = argparse.ArgumentParser(prog="tour", description=__doc__.split("\n\n")[0])
-    parser.add_argument("folder", type=pathlib.Path)
+    parser.add_argument("folder", type=pathlib.Path, help="where the survey is")
+    parser.add_argument("--out", type=pathlib.Path, help="where the tour goes; beside the survey")
     parser.add_argument("--time-limit-s", type=float, required=True)
     parser.add_argument("--speed-share", type=float, default=SPEED_SHARE,
                         help="of full speed, corners and all")
@@ -206,7 +207,7 @@ def main():
         return 2
     budget_m = budget(survey, options.time_limit_s, options.speed_share)
     tour = lay_out(survey, budget_m)
-    write(tour, budget_m, options.folder)
+    write(tour, budget_m, options.out or options.folder)
     print(f"tour: {len(tour.stops) - 2} outlooks, {tour.length:.0f} of {budget_m:.0f} m, "
           f"{tour.volume / LITRES_PER_M3:.0f} of {survey.litres.sum() / LITRES_PER_M3:.0f} m3")
     return 0
