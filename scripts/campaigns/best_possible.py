@@ -146,7 +146,7 @@ def best_flight(options, folder):
 
 
 def write_curve(folder):
-    """tour.csv from the flight's timeline; the last row is what the whole flight explored."""
+    """tour.csv from the flight's timeline."""
     with open(folder / "flight" / "timeline.csv", encoding="utf-8", newline="") as file:
         rows = [(row["t_s"], row["explored_m3"]) for row in csv.DictReader(file)]
     lines = ["t_s,explored_m3"] + [",".join(row) for row in rows]

@@ -23,7 +23,7 @@ from campaigns.survey import LITRES_PER_M3, Survey, SurveyError, Tour
 
 WORTH_SHARE = 0.0003            # of all there is to see; less is no reason to fly anywhere
 EXPONENTS = (0.7, 1.0, 1.5, 2.0)  # of the gain, against the detour
-ROUNDS = 150
+ROUNDS = 100
 GIVEN_UP = (0.05, 0.35)         # share of the stops, least and most
 TOLERANCE = 0.004               # of the best volume; a tour that sees so much less may lead on
 SEED = 1
