@@ -146,10 +146,10 @@ def best_flight(options, folder):
 
 
 def write_curve(folder):
-    """tour.csv from the flight's timeline."""
+    """tour.csv from the flight's timeline, from nothing at the start."""
     with open(folder / "flight" / "timeline.csv", encoding="utf-8", newline="") as file:
         rows = [(row["t_s"], row["explored_m3"]) for row in csv.DictReader(file)]
-    lines = ["t_s,explored_m3"] + [",".join(row) for row in rows]
+    lines = ["t_s,explored_m3", "0.000,0.000"] + [",".join(row) for row in rows]
     (folder / "tour.csv").write_text("\n".join(lines) + "\n")
 
 

@@ -76,13 +76,13 @@ class Survey:
         return float(self.metres[stops[:-1], stops[1:]].sum())
 
     def line(self, stops):
-        """The points of a tour, one beside the other."""
+        """The points of a tour, one beside the other; two at least."""
         outlooks = self.passed(stops)
         points = [self.outlooks[outlooks[0]].tolist()]
         for start, end in zip(outlooks, outlooks[1:]):
             way = self.ways.get((start, end))
             points += (way["points"] if way else self.ways[end, start]["points"][::-1])[1:]
-        return points
+        return points if len(points) > 1 else 2 * points
 
     def gains_of(self, voxels):
         """Litres that each outlook sees of some voxels."""
