@@ -125,7 +125,7 @@ def snakemake(campaign, options):
             "--directory", str(options.out), "--cores", str(options.jobs), "--scheduler", "greedy",
             "--rerun-triggers", "mtime", "--ignore-incomplete", "--nolock",
             "--config", f"description={options.file.resolve()}",
-            f"mission={options.mission.resolve()}", f"meshes={json.dumps(campaign.meshes)}"]
+            f"mission={options.mission.absolute()}", f"meshes={json.dumps(campaign.meshes)}"]
 
 
 def end(process):

@@ -75,25 +75,24 @@ class Alone(WithFakes):
     def test_bound_tour_and_flight_lie_side_by_side(self):
         answer = self.alone()
         self.assertEqual(answer.returncode, 0, answer.stderr)
-        self.assertIn("explores 100 m3 and is home after 10 s; nobody explores more than 200 m3 (50 %)",
+        self.assertIn("explores 110 m3 and is home after 10 s; nobody explores more than 200 m3 (55 %)",
                       answer.stdout)
         rows = (self.out / "tour.csv").read_text().splitlines()
-        self.assertEqual(rows[:3], ["t_s,explored_m3", "0.000,0.000", "1.000,10.000"])
+        self.assertEqual(rows[:3], ["t_s,explored_m3", "0.000,0.000", "1.000,11.000"])
         self.assertEqual({path.name for path in self.out.iterdir()},
                          {"bound.csv", "tour.csv", "tour_points.csv", "tour.json", "flight",
                           "outcome.json", "best_possible.log"})
 
     def test_the_tour_that_explored_most_stays_with_its_flight(self):
-        self.alone()
-        # Shares 0.85, then 8.5 m in 10 s: not worth another.
+        self.alone()  # 8.5 m in 10 s, as expected
         self.assertEqual(self.flights("begin"), ["oracle 1"])
         shutil.rmtree(self.out)
-        (self.folder / "short").touch()
-        self.alone("--set", "fake.half=1")
-        self.assertEqual(self.flights("begin"), 4 * ["oracle 1"])
-        length = json.loads((self.out / "tour.json").read_text())["length_m"]
+        self.alone("--set", "fake.half=1")  # 8.5 m in 4 s, then 1.6 times so far in 6 s
+        self.assertEqual(self.flights("begin"), 3 * ["oracle 1"])
+        length = round(json.loads((self.out / "tour.json").read_text())["length_m"], 3)
         flown = json.loads((self.out / "flight" / "summary.json").read_text())
-        self.assertAlmostEqual(flown["explored_volume_m3"], 10 * length, delta=0.1)
+        self.assertEqual((length, flown["explored_volume_m3"]), (13.6, 66.0))
+        self.assertIn("6.000,66.000", (self.out / "tour.csv").read_text())
 
     def test_a_folder_with_something_in_it_is_left_alone(self):
         self.out.mkdir()

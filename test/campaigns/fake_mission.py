@@ -82,10 +82,11 @@ def write(options):
         "t_s,asked,status,kind,vertices,edges,global_vertices,global_edges,wall_ms\n"
         + "".join(f"{t}.000,explore,ok,local,9,12,{t},{2 * t},{10 * t}.000\n" for t in seconds))
     home = options.planner != "stranding"
+    explored = "the tour is at its end" if options.planner == "oracle" else "nothing is left"
     (options.out / "summary.json").write_text(json.dumps({
         "planner": options.planner, "world": options.world, "robot": options.robot,
         "seed": options.seed, "time_limit_s": options.time_limit_s,
-        "outcome": "explored: nothing is left" if home else "stranded: no way home",
+        "outcome": f"explored: {explored}" if home else "stranded: no way home",
         "mission_time_s": float(len(seconds)), "wall_time_s": time.monotonic(),
         "explored_volume_m3": rate * len(seconds), "reachable_volume_m3": 200.0 * (not is_instant),
         "path_length_m": options.time_limit_s, "collisions": 0 if home else 1, "collision_s": 0.0,
