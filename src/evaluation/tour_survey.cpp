@@ -17,6 +17,13 @@ namespace {
 
 constexpr std::size_t kPointsApart = 4;  // of a way; the positions between them are left out
 
+/// More room than this around the robot's box is no better.
+constexpr float kRoomy_m = 1.2F;
+constexpr float kRoomClass_m = 0.3F;
+
+/// A metre of way without any room counts as so many more.
+constexpr double kNarrowCost = 3.0;
+
 /// The positions of a lattice through the start where the robot has room, joined to it.
 class Lattice {
  public:
@@ -30,12 +37,13 @@ class Lattice {
     const Eigen::Vector3i first = cellsTo(bounds.min);
     size_ = cellsTo(bounds.max) - first + Eigen::Vector3i::Ones();
     corner_ = start.position + (first.cast<double>().array() * step_m_.array()).matrix();
-    has_room_.assign(static_cast<std::size_t>(size_.cast<std::int64_t>().prod()), 0);
-    const auto hasRoom = [&](const Eigen::Vector3d& position) {
+    room_m_.assign(static_cast<std::size_t>(size_.cast<std::int64_t>().prod()), kUnseen);
+    const auto roomAt = [&](const Eigen::Vector3d& position) {
       const Eigen::Vector3d centre = position + robot.box_lift_m * Eigen::Vector3d::UnitZ();
-      return scene.boxDistance(centre, robot.box_m, params.margin_m + 0.01) >= params.margin_m;
+      const auto room = static_cast<float>(scene.boxDistance(centre, robot.box_m, kRoomy_m));
+      return room < params.margin_m ? kNone : room;
     };
-    spread(-first, hasRoom);
+    spread(-first, roomAt);
   }
 
   /// In the order of a breadth-first search from the start, which comes first.
@@ -45,20 +53,23 @@ class Lattice {
     return corner_ + (cellOf(number).cast<double>().array() * step_m_.array()).matrix();
   }
 
+  /// Between the robot's box at a position and the mesh, at most kRoomy_m.
+  [[nodiscard]] float room(std::size_t number) const { return room_m_[number]; }
+
   /// Calls `visit` with the number and distance of each of the up to 26 neighbours with room.
   template <class Visit>
   void forEachNeighbour(std::size_t number, Visit&& visit) const {
     const Eigen::Vector3i cell = cellOf(number);
     forEachAround(cell, [&](const Eigen::Vector3i& other) {
       const std::size_t place = numberOf(other);
-      if (has_room_[place] == kRoom)
+      if (room_m_[place] >= 0.0F)
         visit(place, ((other - cell).cast<double>().array() * step_m_.array()).matrix().norm());
     });
   }
 
  private:
-  static constexpr char kRoom = 1;
-  static constexpr char kNone = 2;
+  static constexpr float kUnseen = -2.0F;
+  static constexpr float kNone = -1.0F;
 
   template <class Visit>
   void forEachAround(const Eigen::Vector3i& cell, Visit&& visit) const {
@@ -74,15 +85,15 @@ class Lattice {
 
   /// The start has room by definition: the robot stands there.
   template <class Room>
-  void spread(const Eigen::Vector3i& start, const Room& hasRoom) {
+  void spread(const Eigen::Vector3i& start, const Room& roomAt) {
     positions_.push_back(numberOf(start));
-    has_room_[positions_.front()] = kRoom;
+    room_m_[positions_.front()] = std::max(0.0F, roomAt(at(positions_.front())));
     for (std::size_t next = 0; next < positions_.size(); ++next)
       forEachAround(cellOf(positions_[next]), [&](const Eigen::Vector3i& other) {
         const std::size_t number = numberOf(other);
-        if (has_room_[number] != 0) return;
-        has_room_[number] = hasRoom(at(number)) ? kRoom : kNone;
-        if (has_room_[number] == kRoom) positions_.push_back(number);
+        if (room_m_[number] != kUnseen) return;
+        room_m_[number] = roomAt(at(number));
+        if (room_m_[number] >= 0.0F) positions_.push_back(number);
       });
   }
 
@@ -102,7 +113,7 @@ class Lattice {
   Eigen::Vector3d step_m_;
   Eigen::Vector3d corner_;
   Eigen::Vector3i size_;
-  std::vector<char> has_room_;  ///< 0: not looked at.
+  std::vector<float> room_m_;  ///< Or kUnseen or kNone.
   std::vector<std::size_t> positions_;
 };
 
@@ -119,8 +130,7 @@ class Surveyor {
   TourSurvey survey() {
     result_.speed_mps = robot_.speed_max_mps;
     result_.volumes_m3 = targets_.volumes_m3();
-    for (const std::size_t position : lattice_.positions())
-      if (!isOverlooked(lattice_.at(position))) addOutlook(position);
+    chooseOutlooks();
     for (std::uint32_t outlook = 0; outlook < outlooks_.size(); ++outlook) findWays(outlook);
     for (const Eigen::Vector3d& outlook : result_.outlooks) look(outlook);
     return std::move(result_);
@@ -129,11 +139,24 @@ class Surveyor {
  private:
   /// What is known of a position while ways from one outlook are searched.
   struct Reached {
-    double metres = std::numeric_limits<double>::infinity();
+    double cost = std::numeric_limits<double>::infinity();  ///< Metres, narrow ones counted more.
+    double metres = 0.0;
     std::size_t before = 0;
     bool is_final = false;
   };
   using Reach = std::unordered_map<std::size_t, Reached>;
+
+  /// The start, then where there is most room, so that tours keep to the middle of passages.
+  void chooseOutlooks() {
+    std::vector<std::size_t> positions = lattice_.positions();
+    const auto roomClass = [this](std::size_t position) {
+      return static_cast<int>(lattice_.room(position) / kRoomClass_m);
+    };
+    std::stable_sort(positions.begin() + 1, positions.end(),
+                     [&](std::size_t a, std::size_t b) { return roomClass(a) > roomClass(b); });
+    for (const std::size_t position : positions)
+      if (!isOverlooked(lattice_.at(position))) addOutlook(position);
+  }
 
   void addOutlook(std::size_t position) {
     number_of_.emplace(position, static_cast<std::uint32_t>(outlooks_.size()));
@@ -156,23 +179,31 @@ class Surveyor {
     Reach reach;
     using Entry = std::pair<double, std::size_t>;
     std::priority_queue<Entry, std::vector<Entry>, std::greater<>> open;
-    reach[outlooks_[outlook]].metres = 0.0;
+    reach[outlooks_[outlook]].cost = 0.0;
     open.emplace(0.0, outlooks_[outlook]);
     while (!open.empty()) {
-      const auto [metres, position] = open.top();
+      const auto [cost, position] = open.top();
       open.pop();
       if (std::exchange(reach[position].is_final, true)) continue;
+      const double metres = reach[position].metres;
       const auto other = number_of_.find(position);
       if (other != number_of_.end() && other->second > outlook)
         note(outlook, other->second, metres, reach);
-      lattice_.forEachNeighbour(position, [&](std::size_t next, double step_m) {
+      lattice_.forEachNeighbour(position, [&, base = cost](std::size_t next, double step_m) {
         Reached& there = reach[next];
-        if (metres + step_m > params_.way_max_m || metres + step_m >= there.metres) return;
+        const double total = base + step_m * narrowness(next);
+        if (metres + step_m > params_.way_max_m || total >= there.cost) return;
+        there.cost = total;
         there.metres = metres + step_m;
         there.before = position;
-        open.emplace(there.metres, next);
+        open.emplace(total, next);
       });
     }
+  }
+
+  /// What a metre to a position counts.
+  [[nodiscard]] double narrowness(std::size_t position) const {
+    return 1.0 + kNarrowCost * (1.0 - lattice_.room(position) / kRoomy_m);
   }
 
   void note(std::uint32_t from, std::uint32_t to, double metres, Reach& reach) {

@@ -7,7 +7,10 @@ namespace spelunk {
 namespace {
 
 /// The mission guards all planners alike; how they fill their paths differs.
-int missionsOf(const std::string& planner) { return planner == "gbplanner" ? 200 : 40; }
+int missionsOf(const std::string& planner) {
+  if (planner == "gbplanner") return 200;
+  return planner == "nbvp" || planner == "frontier_rrt_star" ? 20 : 40;
+}
 
 /// Planner parameters that keep a plan cheap; names a planner does not know are simply not read.
 std::unique_ptr<planners::ExplorationPlanner> cheapPlanner(const std::string& name) {
@@ -16,6 +19,8 @@ std::unique_ptr<planners::ExplorationPlanner> cheapPlanner(const std::string& na
   tree.set(name + ".local_box_m", "[14, 14, 4]", "test");
   tree.set(name + ".iterations", "500", "test");
   tree.set(name + ".frontier_voxels_min", "4", "test");
+  tree.set(name + ".give_up_vertices", "200", "test");
+  if (name == "nbvp") tree.set(name + ".gain_min_m3", "5", "test");
   return planners::makePlanner(name, tree, test::smallRobot(), test::coarseMap().resolution_m);
 }
 

@@ -32,6 +32,7 @@ class SeenCorridor : public ::testing::Test {
   test::FrontierWorld world_;
   FrontierView view_;
   InformedParams params_;
+  BarrenVoxels barren_;
   FrontierSurvey survey_;
   ReachabilityGraph graph_{4.0};
 };
@@ -122,7 +123,7 @@ class Sampling : public SeenCorridor {
     survey_.measure(graph_, here_);
   }
   std::vector<FrontierSample> draw(int count, Region region, std::uint64_t seed = 1) {
-    FrontierSampler sampler(view_.credible(), space_.free(), params_, Rng(seed));
+    FrontierSampler sampler(view_.credible(), space_.free(), params_, Rng(seed), barren_);
     return sampler.draw(here_, label(here_), count, region);
   }
   navigation::Navigator navigator_;
@@ -173,7 +174,7 @@ TEST_F(Sampling, KeepsAwayFromPlacesOfBefore) {
   const auto all = draw(FrontierSampler::kAll, Region::kVoid);
   std::vector<Eigen::Vector3d> before;
   for (const FrontierSample& sample : all) before.push_back(sample.place);
-  FrontierSampler sampler(view_.credible(), space_.free(), params_, Rng(1), before);
+  FrontierSampler sampler(view_.credible(), space_.free(), params_, Rng(1), barren_, before);
   for (const FrontierSample& sample :
        sampler.draw(here_, label(here_), FrontierSampler::kAll, Region::kVoid))
     for (const Eigen::Vector3d& place : before)

@@ -16,7 +16,7 @@ namespace spelunk::evaluation {
 struct SurveyParams {
   double step_m = 0.3;      ///< Between the positions ways lead through, in plan.
   double rise_m = 0.4;      ///< The same in height.
-  double margin_m = 0.02;   ///< Kept between the robot's box and the mesh.
+  double margin_m = 0.1;    ///< Kept between the robot's box and the mesh: maps are coarse.
   double outlook_m = 3.5;   ///< Outlooks that see each other are at least this far apart.
   double way_max_m = 12.0;  ///< Longest way between two outlooks that is noted.
   double target_m = 0.8;    ///< Edge of a voxel that is seen or not.

@@ -4,7 +4,7 @@
 #include <limits>
 
 #include "bench.h"
-#include "navigation/rrt_connect.h"
+#include "navigation/tree_search.h"
 #include "spelunk/common/contract.h"
 #include "spelunk/common/path.h"
 #include "spelunk/map/configuration_space.h"

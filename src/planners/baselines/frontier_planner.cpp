@@ -56,6 +56,7 @@ struct FrontierPlanner::Search {
   const PlanRequest& request;
   const FrontierPlannerParams& params;
   KnownSpace space;
+  KnownSpace ways_home;
   PlanResult result{};
   Eigen::Vector3d root = Eigen::Vector3d::Zero();
   std::vector<Candidate> candidates{};
@@ -69,7 +70,8 @@ struct FrontierPlanner::Search {
       : planner(owner),
         request(asked),
         params(owner.params_),
-        space(asked, owner.robot_, owner.navigator_, owner.boxes_) {}
+        space(asked, owner.robot_, owner.navigator_, owner.boxes_),
+        ways_home(asked, owner.robot_, owner.home_navigator_, owner.boxes_) {}
 
   [[nodiscard]] bool ranksByUtility() const { return planner.preference_ == Preference::kUtility; }
 
@@ -199,17 +201,14 @@ struct FrontierPlanner::Search {
     return travelTime(length_m + metresHome(length_m, end)) <= request.remaining_s;
   }
 
-  /// From the end of a way that is `length_m` long: by navigation if that finds one.
+  /// From the end of a way that is `length_m` long.
   [[nodiscard]] double metresHome(double length_m, const Eigen::Vector3d& end) {
     const double back_m = length_m + planner.trail_.metres();
-    if (!navigatesHome()) return back_m;
-    const auto home = space.navigate(end, request.home.position, "home from a target",
-                                     navigation::TreeDetail::kLeaveOut);
-    return home.status == navigation::NavigationStatus::kOk ? lengthOf(home.path) : back_m;
+    const auto home = ways_home.navigate(end, request.home.position, "home from a target",
+                                         navigation::TreeDetail::kLeaveOut);
+    return home.status == navigation::NavigationStatus::kOk ? std::min(lengthOf(home.path), back_m)
+                                                            : back_m;
   }
-
-  /// RRT* would spend all its iterations on each of the many ways home that are only measured.
-  [[nodiscard]] bool navigatesHome() const { return params.way_method != "rrt_star"; }
 
   void choose() {
     std::stable_sort(candidates.begin(), candidates.end(),
@@ -272,17 +271,16 @@ struct FrontierPlanner::Search {
   }
 
   void goHome() {
-    if (navigatesHome()) {
-      const auto answer =
-          space.navigate(root, request.home.position, "home", navigation::TreeDetail::kLeaveOut);
-      if (answer.status == navigation::NavigationStatus::kOk)
-        return finishHome(toLine(answer.path));
-    }
     constexpr double kShortcut_m = 8.0;
-    const Polyline back = planner.trail_.findWay(space.free());
-    if (!back.empty()) return finishHome(space.shortened(back, kShortcut_m));
+    const Polyline back = space.shortened(planner.trail_.findWay(space.free()), kShortcut_m);
+    const auto answer =
+        ways_home.navigate(root, request.home.position, "home", navigation::TreeDetail::kLeaveOut);
+    const bool is_found = answer.status == navigation::NavigationStatus::kOk;
+    if (is_found && (back.empty() || lengthOf(answer.path) < graph::lengthOf(back)))
+      return finishHome(toLine(answer.path));
+    if (!back.empty()) return finishHome(back);
     result.status = PlanStatus::kNoPath;
-    result.reason = "no free way home is known";
+    result.reason = "no free way home is known: " + answer.reason;
   }
 
   void finishHome(const Polyline& way) {
@@ -303,6 +301,7 @@ FrontierPlanner::FrontierPlanner(const FrontierPlannerParams& params, Preference
       robot_(robot),
       view_(robot, resolution_m, {params.range_m, {params.closing_height_m, params.growth_m}}),
       navigator_(params.navigation()),
+      home_navigator_(params.homeNavigation()),
       boxes_(robot.box_m),
       tried_(params.tried_radius_m) {
   require(kindOf(robot) == RobotKind::kAerial, "FrontierPlanner: for robots that fly");

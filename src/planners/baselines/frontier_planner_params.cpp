@@ -10,6 +10,14 @@ navigation::NavigationParams FrontierPlannerParams::navigation() const {
   return ways;
 }
 
+navigation::NavigationParams FrontierPlannerParams::homeNavigation() const {
+  navigation::NavigationParams ways = navigation();
+  if (way_method != "rrt_star") return ways;
+  ways.method = "adaptive";
+  ways.iterations = FrontierPlannerParams().iterations;
+  return ways;
+}
+
 std::vector<std::string> FrontierPlannerParams::problems() const { return navigation().problems(); }
 
 FrontierPlannerParams FrontierPlannerParams::forNearest() {

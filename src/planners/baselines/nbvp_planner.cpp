@@ -110,19 +110,27 @@ struct NbvpPlanner::Search {
   /// Algorithm 1.
   void growTree() {
     const Stopwatch watch;
-    const map::FreeVoxels known(request.map, everywhere(*request.map, request.bounds));
+    const AxisAlignedBox box = everywhere(*request.map, request.bounds);
+    const map::FreeVoxels known(request.map, box);
     while (wantsMore() && result.stats.samples < request.budget.iterations) {
       if (result.stats.samples % kSamplesBetweenClockReads == 0 &&
           watch.milliseconds() > request.budget.seconds * 1e3)
         break;
       ++result.stats.samples;
-      const auto sample = known.draw(rng);
+      const auto sample = params.samples == "box" ? drawnFrom(box) : known.draw(rng);
       if (!sample) break;
       extendTowards(*sample);
     }
     result.stats.vertices = static_cast<int>(tree->size());
     result.stats.edges = result.stats.vertices - 1;
     result.stats.graph_ms = watch.milliseconds();
+  }
+
+  [[nodiscard]] std::optional<Eigen::Vector3d> drawnFrom(const AxisAlignedBox& box) {
+    if (box.isEmpty()) return std::nullopt;
+    const double x = rng.uniform(box.min.x(), box.max.x());
+    const double y = rng.uniform(box.min.y(), box.max.y());
+    return Eigen::Vector3d(x, y, rng.uniform(box.min.z(), box.max.z()));
   }
 
   [[nodiscard]] bool wantsMore() const {

@@ -10,6 +10,7 @@
 #include "spelunk/common/contract.h"
 #include "spelunk/common/stopwatch.h"
 #include "spelunk/planners/shared/flight_line.h"
+#include "spelunk/planners/shared/free_place.h"
 #include "spelunk/planners/shared/free_start.h"
 #include "spelunk/planners/shared/known_space.h"
 
@@ -18,9 +19,16 @@ namespace {
 
 using graph::Polyline;
 
-/// Points of the tour looked at for one to go on from when the next one cannot be reached.
-constexpr std::size_t kPointsTried = 25;
+/// Ways to later points of the tour tried when the next one cannot be reached.
+constexpr int kWaysTried = 12;
 constexpr int kWayIterations = 2000;
+
+/// So many times the distance that counts as reached may be left out of a tour.
+constexpr double kSkipped = 3.0;
+
+/// Where a point of the tour is not known to be free, places this near to it serve as well.
+constexpr double kPlaceReach_m = 2.4;
+constexpr double kPlaceStep_m = 0.6;
 
 navigation::NavigationParams navigationParams() {
   navigation::NavigationParams navigation;
@@ -87,30 +95,48 @@ struct OraclePlanner::Search {
     return true;
   }
 
-  /// A point counts as reached once the robot is near it or, within one look ahead, a later one.
+  /// A point counts as reached once the robot is near it or one a little later; what is farther on
+  /// may be the end of a detour that is still to be flown.
   void notePassed() {
     double arc_m = 0.0;
     for (std::size_t i = planner.next_; i < tour().size(); ++i) {
       if (i > planner.next_) arc_m += (tour()[i] - tour()[i - 1]).norm();
-      if (arc_m > planner.params_.look_ahead_m) break;
-      if ((tour()[i] - root).norm() <= planner.params_.reached_m) planner.next_ = i + 1;
+      if (arc_m > kSkipped * planner.params_.reached_m) break;
+      if (isNear(tour()[i])) planner.next_ = i + 1;
     }
+  }
+
+  /// Twice as far above or below is near: much the same is seen from there.
+  [[nodiscard]] bool isNear(const Eigen::Vector3d& point) const {
+    const Eigen::Vector3d gap = (point - root).cwiseAbs();
+    return gap.head<2>().norm() <= planner.params_.reached_m &&
+           gap.z() <= 2.0 * planner.params_.reached_m;
   }
 
   /// To the next point of the tour, else to the first one behind it that a way leads to.
   void joinTour() {
-    const std::size_t end = std::min(tour().size(), planner.next_ + kPointsTried);
-    for (std::size_t i = planner.next_; i < end && line.size() == 1; ++i) {
+    int ways = 0;
+    for (std::size_t i = planner.next_; i < tour().size() && line.size() == 1 && ways < kWaysTried;
+         i += 1 + (i - planner.next_) / 8) {  // farther and farther apart
       ++result.stats.samples;
       if (space.free().isFree(root, tour()[i])) {
         line.push_back(tour()[i]);
-      } else if (space.free().at(tour()[i]) == Rejection::kNone) {
-        const auto answer = space.navigate(root, tour()[i], "tour/" + std::to_string(i),
+      } else if (const auto place = placeAt(tour()[i]); place && !isNear(*place)) {
+        ++ways;
+        const auto answer = space.navigate(root, *place, "tour/" + std::to_string(i),
                                            navigation::TreeDetail::kLeaveOut);
         if (answer.status == navigation::NavigationStatus::kOk) line = toLine(answer.path);
       }
       if (line.size() > 1) planner.next_ = i;
     }
+  }
+
+  /// A free place for a point: itself, at the robot's height, or near it.
+  [[nodiscard]] std::optional<Eigen::Vector3d> placeAt(const Eigen::Vector3d& point) const {
+    if (space.free().at(point) == Rejection::kNone) return point;
+    const Eigen::Vector3d level(point.x(), point.y(), root.z());
+    if (space.free().at(level) == Rejection::kNone) return level;
+    return PlaceFinder(kPlaceReach_m, kPlaceStep_m).find(point, space.free());
   }
 
   /// Along the tour as far as it is free and in sight.
@@ -148,12 +174,10 @@ struct OraclePlanner::Search {
       followTour();
       return propose();
     }
-    result.status =
-        planner.next_ < tour().size() ? PlanStatus::kNoPath : PlanStatus::kNothingToGain;
-    result.reason = planner.next_ < tour().size()
-                        ? "no free way leads to the next points of the tour"
-                        : "the tour is at its end";
-    if (planner.next_ < tour().size()) ++planner.next_;  // the next plan tries from further on
+    const bool is_at_end = planner.next_ == tour().size();
+    result.status = is_at_end ? PlanStatus::kNothingToGain : PlanStatus::kNoPath;
+    result.reason =
+        is_at_end ? "the tour is at its end" : "no free way leads to the next points of the tour";
   }
 
   void goHome() {

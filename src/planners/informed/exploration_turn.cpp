@@ -79,14 +79,14 @@ std::optional<Candidate> ExplorationTurn::tryAll(const std::vector<Draw>& draws)
   if (auto candidate = tryOnce(draws)) return candidate;
   for (const Draw& draw : draws) {
     if (auto candidate = tryOnce({{draw.vertex, FrontierSampler::kAll}})) return candidate;
-    close(draw.vertex, last_refusals_, last_over_budget_);
+    close(draw.vertex, last_refusals_);
   }
   return std::nullopt;
 }
 
 std::optional<Candidate> ExplorationTurn::tryOnce(const std::vector<Draw>& draws) {
   FrontierSampler sampler(judge_.view.credible(), judge_.space.free(), judge_.params,
-                          rng_.fork("round/" + std::to_string(round_++)), vain_);
+                          rng_.fork("round/" + std::to_string(round_++)), barren_, vain_);
   std::vector<FrontierSample> samples;
   for (const Draw& draw : draws) {
     survey_.measure(growth_.graph(), draw.vertex);
@@ -97,26 +97,27 @@ std::optional<Candidate> ExplorationTurn::tryOnce(const std::vector<Draw>& draws
   samples_ += static_cast<int>(samples.size());
   infeasible_ += sampler.infeasible();
   last_refusals_ = {};
-  last_over_budget_ = 0;
   std::vector<Candidate> candidates = judge_.judge(samples, last_refusals_);
   vain_.insert(vain_.end(), last_refusals_.vain.begin(), last_refusals_.vain.end());
   seen_.insert(seen_.end(), candidates.begin(), candidates.end());
   for (Candidate& candidate : candidates) {
     if (fits_budget_(candidate)) return std::move(candidate);
-    ++last_over_budget_;
+    over_budget_.insert(candidate.sample.vertex);
+    vain_.push_back(candidate.sample.place);  // there will not be more time in this plan
   }
   return std::nullopt;
 }
 
-void ExplorationTurn::close(VertexId vertex, const Refusals& refusals, int out_of_budget) {
+void ExplorationTurn::close(VertexId vertex, const Refusals& refusals) {
   if (refusals.far > 0) return;
+  const bool is_over_budget = over_budget_.count(vertex) > 0;
   VertexLabel& label = growth_.graph().update(vertex);
   label.is_explored = true;
-  label.is_over_budget = out_of_budget > 0;
+  label.is_over_budget = is_over_budget;
   label.best_gain_m3 = refusals.best_gain_m3;
   label.closed_voxels.clear();
   for (const FrontierVoxel& voxel : label.frontier) label.closed_voxels.push_back(voxel.voxel);
-  if (out_of_budget > 0)
+  if (is_over_budget)
     label.closed_because = "no time for it and the way home";
   else if (refusals.unreachable > 0)
     label.closed_because = "no free way leads to its frontier";

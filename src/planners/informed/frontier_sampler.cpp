@@ -29,14 +29,20 @@ Middle middleOf(const std::vector<FrontierVoxel>& frontier) {
 
 }  // namespace
 
+bool BarrenVoxels::cover(const Eigen::Vector3d& voxel) const {
+  const auto nearest = index_.findNearest(voxel);
+  return nearest && (index_.point(*nearest) - voxel).norm() <= kPlaceStep_m;
+}
+
 FrontierSampler::FrontierSampler(const map::FrozenMap& map, const FreeSpace& space,
-                                 const InformedParams& params, Rng rng,
+                                 const InformedParams& params, Rng rng, BarrenVoxels& barren,
                                  std::vector<Eigen::Vector3d> apart_from)
     : map_(map),
       space_(space),
       params_(params),
       places_(kPlaceReach_m, kPlaceStep_m),
       rng_(rng),
+      barren_(barren),
       chosen_(std::move(apart_from)) {}
 
 /// Weighted order without repetition: the key of an item is an exponential of its rate (Efraimidis
@@ -71,10 +77,12 @@ std::vector<FrontierSample> FrontierSampler::draw(graph::VertexId vertex, const 
     if (static_cast<int>(samples.size()) >= count) break;
     const Eigen::Vector3d voxel = map_.centreOf(label.frontier[index].voxel);
     if (!isApart(voxel)) continue;  // its place would hardly be farther off
+    if (barren_.cover(voxel)) continue;
     ++tried_;
     const auto place = places_.find(voxel, space_);
     if (!place) {
       ++infeasible_;
+      barren_.add(voxel);
       continue;
     }
     if (!isApart(*place)) continue;

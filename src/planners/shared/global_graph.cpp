@@ -50,6 +50,11 @@ void GlobalGraph::connect(VertexId vertex, const FreeSpace& space) {
   }
 }
 
+void GlobalGraph::reconnect(const FreeSpace& space) {
+  for (std::size_t i = 0; i < graph_.vertexCount(); ++i)
+    connect(VertexId{static_cast<std::uint32_t>(i)}, space);
+}
+
 VertexId GlobalGraph::addPoint(const Eigen::Vector3d& point, const FreeSpace& space) {
   const auto existing = findMergeable(point);
   if (existing && space.isFree(point, graph_.position(*existing))) {

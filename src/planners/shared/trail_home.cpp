@@ -1,6 +1,7 @@
 #include "spelunk/planners/shared/trail_home.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "spelunk/graph/shortest_paths.h"
 
@@ -23,18 +24,29 @@ void TrailHome::follow(const PlanRequest& request, const Eigen::Vector3d& root,
     known_until_s_ = stamped.time_s;
   }
   graph_.forgetChecksNear(root, std::numeric_limits<double>::infinity());
+  root_ = root;
+  linkUp(space);
+  if (std::isfinite(metres())) return;
+  graph_.reconnect(space);
+  linkUp(space);
+}
+
+void TrailHome::linkUp(const FreeSpace& space) {
+  measure();
+  links_.clear();
+  std::vector<VertexId> near = graph_.graph().findWithin(root_, kLinkReach_m);
+  if (near.size() > kLinksTried) near.resize(kLinksTried);
+  for (const VertexId vertex : near) {
+    const Eigen::Vector3d& place = graph_.graph().position(vertex);
+    if (space.isFree(root_, place)) links_.push_back({vertex, (root_ - place).norm()});
+  }
+}
+
+void TrailHome::measure() {
   const graph::ShortestPaths shortest = graph::shortestPaths(graph_.graph(), GlobalGraph::home());
   home_m_.clear();
   for (std::size_t i = 0; i < graph_.graph().vertexCount(); ++i)
     home_m_.push_back(shortest.distanceTo(VertexId{static_cast<std::uint32_t>(i)}));
-  root_ = root;
-  links_.clear();
-  std::vector<VertexId> near = graph_.graph().findWithin(root, kLinkReach_m);
-  if (near.size() > kLinksTried) near.resize(kLinksTried);
-  for (const VertexId vertex : near) {
-    const Eigen::Vector3d& place = graph_.graph().position(vertex);
-    if (space.isFree(root, place)) links_.push_back({vertex, (root - place).norm()});
-  }
 }
 
 void TrailHome::expect(const graph::Polyline& path, const FreeSpace& space) {
@@ -52,6 +64,14 @@ double TrailHome::metres() const {
 }
 
 graph::Polyline TrailHome::findWay(const FreeSpace& space) {
+  graph::Polyline way = findKnownWay(space);
+  if (!way.empty()) return way;
+  graph_.reconnect(space);
+  measure();
+  return findKnownWay(space);
+}
+
+graph::Polyline TrailHome::findKnownWay(const FreeSpace& space) {
   std::vector<Link> links = links_;
   std::stable_sort(links.begin(), links.end(),
                    [&](const Link& a, const Link& b) { return metresBy(a) < metresBy(b); });

@@ -33,8 +33,7 @@ enum class Preference {
 /// the way to each is planned.
 ///
 /// best_gain and gain_threshold of the stats are cubic metres of unknown space, 0 for kNearest.
-/// planHome(): by navigation, else, and with ways by RRT* always, by the shortest way along the
-/// trail.
+/// planHome(): by RRT-Connect or along the trail, whichever is shorter.
 class FrontierPlanner final : public ExplorationPlanner {
  public:
   FrontierPlanner(const FrontierPlannerParams& params, Preference preference,
@@ -62,6 +61,7 @@ class FrontierPlanner final : public ExplorationPlanner {
   RobotModel robot_;
   FrontierView view_;
   navigation::Navigator navigator_;
+  navigation::Navigator home_navigator_;
   map::ConfigurationSpace boxes_;
   TriedTargets tried_;
   Visits visits_;

@@ -54,6 +54,10 @@ struct FrontierPlannerParams {
   [[nodiscard]] static FrontierPlannerParams forNearest();
   [[nodiscard]] static FrontierPlannerParams forRrtStar();
 
+  /// What navigation home is to use: the same, but RRT-Connect in place of RRT*, for a way home is
+  /// measured with every plan.
+  [[nodiscard]] navigation::NavigationParams homeNavigation() const;
+
   /// What navigation to frontiers is to use.
   [[nodiscard]] navigation::NavigationParams navigation() const;
 };

@@ -9,6 +9,7 @@ namespace spelunk::planners::baselines {
 
 /// Parameters of the next-best-view planner (section "nbvp"). Symbols of Bircher 2016 in brackets.
 struct NbvpParams {
+  std::string samples = "explored";
   int max_vertices = 500;
   int give_up_vertices = 2500;
   double edge_length_min_m = 1.0;
@@ -23,6 +24,8 @@ struct NbvpParams {
 
   template <class Visitor>
   void visit(Visitor&& field) {
+    field("samples", samples, Bounds{},
+          "where they are drawn: explored (known free volume) or box (the whole box around it)");
     field("max_vertices", max_vertices, Bounds{2, 100000},
           "the tree grows so large, and on while nothing is to be gained [N_max]", Audience::kUser);
     field("give_up_vertices", give_up_vertices, Bounds{2, 1000000},

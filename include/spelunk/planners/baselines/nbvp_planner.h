@@ -19,13 +19,13 @@ namespace spelunk::planners::baselines {
 /// volume at least cost is best; its first edge is executed, the rest of it begins the next tree.
 /// For robots that fly, and for robots with legs above ground they can walk on.
 ///
-/// Differs from the paper: samples are drawn from the known free volume, not from the whole box, so
-/// that none is lost; where a sensor sees all around, a node looks along its edge instead of
-/// somewhere at random; unknown volume is counted as GBPlanner counts it here (cones in the
-/// credible map), so that the comparison is about the search; a branch counts only if there is time
-/// for it and the way home; the next plan begins before the robot has come to the end of an edge,
-/// and what is then left of that edge is executed with the next one. The cost of a node is the
-/// length of its whole branch.
+/// Differs from the paper: samples are drawn from the known free volume, so that none is lost, and
+/// only on demand from the whole box; where a sensor sees all around, a node looks along its edge
+/// instead of somewhere at random; unknown volume is counted as GBPlanner counts it here (cones in
+/// the credible map), so that the comparison is about the search; a branch counts only if there is
+/// time for it and the way home; the next plan begins before the robot has come to the end of an
+/// edge, and what is then left of that edge is executed with the next one. The cost of a node is
+/// the length of its whole branch.
 ///
 /// best_gain of the stats is that of the best branch, gain_threshold the volume below which a place
 /// sees nothing; m3. planHome(): the shortest way along the robot's own trail and its short cuts,

@@ -12,7 +12,7 @@ struct OracleParams {
   std::string tour;
   double look_ahead_m = 30.0;
   double reached_m = 1.5;
-  double shortcut_length_max_m = 6.0;
+  double shortcut_length_max_m = 3.0;
 
   template <class Visitor>
   void visit(Visitor&& field) {

@@ -2,6 +2,7 @@
 
 #include <functional>
 #include <optional>
+#include <set>
 #include <vector>
 
 #include "spelunk/planners/informed/candidates.h"
@@ -42,7 +43,7 @@ class ExplorationTurn {
   [[nodiscard]] std::vector<Draw> nextRanked(graph::VertexId current) const;
   [[nodiscard]] std::optional<Candidate> tryAll(const std::vector<Draw>& draws);
   [[nodiscard]] std::optional<Candidate> tryOnce(const std::vector<Draw>& draws);
-  void close(graph::VertexId vertex, const Refusals& refusals, int out_of_budget);
+  void close(graph::VertexId vertex, const Refusals& refusals);
 
   GraphGrowth& growth_;
   const FrontierSurvey& survey_;
@@ -51,12 +52,13 @@ class ExplorationTurn {
   std::function<bool(const Candidate&)> fits_budget_;
   std::function<bool(graph::VertexId)> scout_;
   std::vector<Candidate> seen_;
+  BarrenVoxels barren_;
   std::vector<Eigen::Vector3d> vain_;  ///< Places that need not be sampled again in this turn.
   int round_ = 0;
   int samples_ = 0;
   int infeasible_ = 0;
   Refusals last_refusals_;
-  int last_over_budget_ = 0;
+  std::set<graph::VertexId> over_budget_;  ///< Vertices with samples there is no time for.
 };
 
 }  // namespace spelunk::planners::informed

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "spelunk/common/rng.h"
+#include "spelunk/graph/point_index.h"
 #include "spelunk/map/frozen_map.h"
 #include "spelunk/planners/informed/informed_params.h"
 #include "spelunk/planners/informed/reachability_graph.h"
@@ -19,6 +20,17 @@ struct FrontierSample {
   Eigen::Vector3d place = Eigen::Vector3d::Zero();  ///< Where the robot would go for it.
 };
 
+/// Frontier voxels without a free place beside them, for one plan: the voxels right beside such a
+/// one are not looked at again.
+class BarrenVoxels {
+ public:
+  void add(const Eigen::Vector3d& voxel) { index_.add(voxel); }
+  [[nodiscard]] bool cover(const Eigen::Vector3d& voxel) const;
+
+ private:
+  graph::PointIndex index_;
+};
+
 /// Draws a few frontier voxels of vertices (Akbari 2021, section VII): no two places nearer than
 /// d_s to each other, each geometrically feasible. In a branch voxels whose clearance lies between
 /// the average and the maximum are drawn several times as often.
@@ -31,10 +43,11 @@ class FrontierSampler {
 
   /// A view for the duration of one plan. No sample is nearer than d_s to any of `apart_from`.
   FrontierSampler(const map::FrozenMap& map, const FreeSpace& space, const InformedParams& params,
-                  Rng rng, std::vector<Eigen::Vector3d> apart_from = {});
+                  Rng rng, BarrenVoxels& barren, std::vector<Eigen::Vector3d> apart_from = {});
 
   /// At most `count` samples of a vertex whose clearances are measured; places of earlier draws
-  /// count for the distance d_s. With kAll every voxel is looked at.
+  /// count for the distance d_s. With kAll all voxels are looked at but those right beside barren
+  /// ones.
   [[nodiscard]] std::vector<FrontierSample> draw(graph::VertexId vertex, const VertexLabel& label,
                                                  int count, Region region);
 
@@ -50,6 +63,7 @@ class FrontierSampler {
   const InformedParams& params_;
   PlaceFinder places_;
   Rng rng_;
+  BarrenVoxels& barren_;
   std::vector<Eigen::Vector3d> chosen_;
   int tried_ = 0;
   int infeasible_ = 0;

@@ -67,6 +67,8 @@ class GlobalGraph {
   /// looked at again until forgetChecksNear() says that the map there may have changed.
   [[nodiscard]] graph::Polyline findFreePath(graph::VertexId from, graph::VertexId to,
                                              const FreeSpace& space);
+  /// Joins every vertex to its free neighbours as if it were new: the map may know more by now.
+  void reconnect(const FreeSpace& space);
   void forgetChecksNear(const Eigen::Vector3d& point, double radius_m);
 
   [[nodiscard]] GraphLayer layer() const;

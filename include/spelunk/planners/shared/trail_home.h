@@ -36,7 +36,10 @@ class TrailHome {
     graph::VertexId vertex{};
     double length_m = 0.0;
   };
+  void linkUp(const FreeSpace& space);
+  void measure();
   [[nodiscard]] double metresBy(const Link& link) const;
+  [[nodiscard]] graph::Polyline findKnownWay(const FreeSpace& space);
 
   GlobalGraph graph_{GlobalGraphLimits{2.0, 0.2, 4.0, 12, 3.0}};
   std::vector<Link> links_;
