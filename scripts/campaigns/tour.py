@@ -80,16 +80,6 @@ def give_up(tour, rng):
     tour.follow([0, *np.delete(inner, lost).tolist(), 0])
 
 
-def fit(tour, budget_m):
-    """Leaves out what is worth least a metre until the rest is home in time."""
-    while tour.length > budget_m:
-        metres, stops = tour.survey.metres, np.array(tour.stops)
-        saved = (metres[stops[:-2], stops[1:-1]] + metres[stops[1:-1], stops[2:]]
-                 - metres[stops[:-2], stops[2:]])
-        worth = np.array([tour.loss(outlook) for outlook in stops[1:-1]]) / np.maximum(saved, 0.1)
-        tour.follow(np.delete(stops, 1 + int(np.argmin(worth))).tolist())
-
-
 def search_parameters(metaheuristic):
     search = pywrapcp.DefaultRoutingSearchParameters()
     search.first_solution_strategy = (
