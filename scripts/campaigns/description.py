@@ -12,6 +12,7 @@
         seeds: 1-15                       # or a list
         time_limits_s: [900]
         wall_limit_s: 1860                # optional, 60 s and twice the time limit
+        best_possible: true               # optional: also find out what can be explored at best
     meshes: {edgar: /path/to/mine.stl}    # optional: worlds that are files
     references: [...]                     # optional: figures of a paper, for the report
 """
@@ -23,7 +24,8 @@ import yaml
 
 TOP_KEYS = {"title", "parameter_sets", "groups", "meshes", "references"}
 GROUP_LISTS = ("worlds", "robots", "planners", "parameter_sets")
-GROUP_KEYS = {*GROUP_LISTS, "seeds", "time_limits_s", "wall_limit_s"}
+GROUP_KEYS = {*GROUP_LISTS, "seeds", "time_limits_s", "wall_limit_s", "best_possible"}
+WHAT_IS_POSSIBLE = ("robot.", "sensor.")  # settings of these; others change how it is explored
 REFERENCE_KEYS = {"world", "robot", "time_limit_s", "label", "vertices", "edges", "navigation_s",
                   "exploration_s", "volume_m3"}
 NAME = re.compile(r"[A-Za-z0-9]+([._-][A-Za-z0-9]+|_)*")
@@ -71,11 +73,33 @@ class Mission:
 
 
 @dataclasses.dataclass(frozen=True)
+class BestPossible:
+    """What can be explored at best: asked once for all planners."""
+
+    world: str
+    robot: str
+    time_limit_s: float
+    settings: tuple
+
+    @property
+    def name(self):
+        return "__".join([self.world, self.robot, number_text(self.time_limit_s)])
+
+    def arguments(self, meshes):
+        """What scripts/best_possible is told, all but the output folder."""
+        pairs = [("--world", str(meshes.get(self.world, self.world))), ("--robot", self.robot),
+                 ("--time-limit-s", number_text(self.time_limit_s))]
+        pairs += [("--set", f"{key}={value}") for key, value in self.settings]
+        return [text for pair in pairs for text in pair]
+
+
+@dataclasses.dataclass(frozen=True)
 class Campaign:
-    """All missions in the order of their names, and the meshes of worlds that are files."""
+    """Missions and best possibles in the order of their names; meshes of worlds that are files."""
 
     title: str
     missions: tuple
+    best_possible: tuple
     meshes: dict
     references: tuple
 
@@ -107,6 +131,7 @@ class Reader:
 
     def __init__(self):
         self.problems = []
+        self.asked = []  # missions whose group asks for the best possible
 
     def is_map(self, value, where, known):
         """Whether `value` is a map; names the keys nobody reads."""
@@ -199,12 +224,21 @@ class Reader:
             if name not in sets:
                 self.problems.append(f"{where}: parameter set \"{name}\" is not described; known: "
                                      f"{', '.join(sorted(sets))}")
-        return [Mission(world, robot, planner, name, float(time), seed,
-                        filled(sets.get(name, ()), {"world": world, "robot": robot,
-                                                    "time_limit_s": number_text(time)}),
-                        float(wall or 60 + 2 * time))
-                for world, robot, planner, name, time, seed
-                in itertools.product(worlds, robots, planners, chosen, times, seeds)]
+        missions = [
+            Mission(world, robot, planner, name, float(time), seed,
+                    filled(sets.get(name, ()), {"world": world, "robot": robot,
+                                                "time_limit_s": number_text(time)}),
+                    float(wall or 60 + 2 * time))
+            for world, robot, planner, name, time, seed
+            in itertools.product(worlds, robots, planners, chosen, times, seeds)]
+        if self.is_asked(group.get("best_possible", False), f"{where}.best_possible"):
+            self.asked += missions
+        return missions
+
+    def is_asked(self, value, where):
+        if not isinstance(value, bool):
+            self.problems.append(f"{where}: \"{value}\" is neither true nor false")
+        return value is True
 
     def references(self, value):
         if value is not None and not isinstance(value, list):
@@ -227,6 +261,18 @@ def distinct(missions, problems):
     return tuple(by_name[name] for name in sorted(by_name))
 
 
+def best_possible_of(missions, problems):
+    """One for all missions of a robot in a world with a time limit, sorted by name."""
+    by_name = {}
+    for mission in missions:
+        settings = tuple(pair for pair in mission.settings if pair[0].startswith(WHAT_IS_POSSIBLE))
+        asked = BestPossible(mission.world, mission.robot, mission.time_limit_s, settings)
+        if by_name.setdefault(asked.name, asked) != asked:
+            problems.append(f"best_possible {asked.name}: parameter sets differ in robot.* or "
+                            "sensor.*, so there is no one best possible; describe two campaigns")
+    return tuple(by_name[name] for name in sorted(by_name))
+
+
 def parse(content, meshes=None):
     """The campaign that parsed YAML describes, and all that is wrong with it."""
     reader = Reader()
@@ -244,7 +290,7 @@ def parse(content, meshes=None):
         reader.problems.append("meshes: must be a map from name to the path of a mesh")
         described = {}
     return Campaign(str(content.get("title", "Campaign")), distinct(missions, reader.problems),
-                    {**described, **(meshes or {})},
+                    best_possible_of(reader.asked, reader.problems), {**described, **(meshes or {})},
                     reader.references(content.get("references"))), reader.problems
 
 

@@ -21,6 +21,7 @@ from campaigns import checks, description, fly, progress
 SCRIPTS = pathlib.Path(__file__).resolve().parent.parent
 SHARE = SCRIPTS.parent
 SNAKEFILE = SCRIPTS / "campaigns" / "Snakefile"
+INSTALL = SCRIPTS / "install"
 LOOK_PERIOD_S = 0.5
 GRACE_S = 15  # for jobs that are told to end
 
@@ -94,16 +95,28 @@ def opened(out):
     return lock
 
 
-def remove_unfinished(missions):
+def remove_unfinished(out):
     """Half-flown folders of a campaign that was killed."""
-    for folder in missions.glob(".*.part.*"):
+    for folder in [*out.glob("missions/.*.part.*"), *out.glob("best_possible/.*.part.*")]:
         shutil.rmtree(folder, ignore_errors=True)
 
 
-def remove_failed(campaign, missions):
-    for name, outcome in progress.outcomes_of(campaign.missions, missions).items():
-        if outcome["kind"] in fly.FAILED_KINDS:
-            shutil.rmtree(missions / name)
+def remove_failed(campaign, out):
+    for jobs, place in ((campaign.missions, out / "missions"),
+                        (campaign.best_possible, out / "best_possible")):
+        for name, outcome in progress.outcomes_of(jobs, place).items():
+            if outcome["kind"] in fly.FAILED_KINDS:
+                shutil.rmtree(place / name)
+
+
+def install_solver(campaign, out):
+    """OR-tools, where the campaign has tours to lay out. Raises Refused."""
+    missing = [asked for asked in campaign.best_possible
+               if not (out / "best_possible" / asked.name).exists()]
+    if missing and subprocess.run([INSTALL, "tour"], stdin=subprocess.DEVNULL,
+                                  check=False).returncode != 0:
+        raise Refused("OR-tools cannot be installed, which tours of best_possible need: see above, "
+                      "or leave best_possible out of the description")
 
 
 def snakemake(campaign, options):
@@ -112,7 +125,7 @@ def snakemake(campaign, options):
             "--directory", str(options.out), "--cores", str(options.jobs), "--scheduler", "greedy",
             "--rerun-triggers", "mtime", "--ignore-incomplete", "--nolock",
             "--config", f"description={options.file.resolve()}",
-            f"mission={options.mission.resolve()}", f"meshes={json.dumps(campaign.meshes)}"]
+            f"mission={options.mission.absolute()}", f"meshes={json.dumps(campaign.meshes)}"]
 
 
 def end(process):
@@ -157,10 +170,14 @@ def what_failed(log):
 def concluded(campaign, options, code):
     """Says how it went; the exit code of this program."""
     outcomes = progress.outcomes_of(campaign.missions, options.out / "missions")
+    best = progress.outcomes_of(campaign.best_possible, options.out / "best_possible")
     if sys.stdout.isatty():
         print()
     print(f"campaign: {len(outcomes)} of {len(campaign.missions)} missions flown: "
           f"{progress.kinds_text(outcomes)}")
+    if campaign.best_possible:
+        print(f"campaign: {len(best)} of {len(campaign.best_possible)} best possibles known: "
+              f"{progress.kinds_text(best)}")
     if code is None:
         print("campaign: interrupted; the same command goes on from here", file=sys.stderr)
         return 130
@@ -170,7 +187,8 @@ def concluded(campaign, options, code):
               file=sys.stderr)
         return 1
     print(f"campaign: {options.out / 'campaign.csv'}; next: scripts/report {options.out}")
-    return int(any(outcome["kind"] in fly.FAILED_KINDS for outcome in outcomes.values()))
+    return int(any(outcome["kind"] in fly.FAILED_KINDS
+                   for outcome in [*outcomes.values(), *best.values()]))
 
 
 def list_missions(campaign, options):
@@ -178,6 +196,9 @@ def list_missions(campaign, options):
     outcomes = progress.outcomes_of(campaign.missions, options.out / "missions")
     for mission in campaign.missions:
         print(f"{outcomes.get(mission.name, {}).get('kind', 'to fly')}: {mission.name}")
+    best = progress.outcomes_of(campaign.best_possible, options.out / "best_possible")
+    for asked in campaign.best_possible:
+        print(f"{best.get(asked.name, {}).get('kind', 'to find out')}: best_possible {asked.name}")
     count = len(campaign.missions)
     print(f"campaign: {count - len(outcomes)} of {count} missions to fly")
     return 0
@@ -189,11 +210,11 @@ def flown(options):
     if options.dry_run:
         return list_missions(campaign, options)
     with opened(options.out):
-        missions = options.out / "missions"
-        remove_unfinished(missions)
+        remove_unfinished(options.out)
         if options.retry_failed:
-            remove_failed(campaign, missions)
-        display = progress.Display(campaign, missions, options.jobs)
+            remove_failed(campaign, options.out)
+        install_solver(campaign, options.out)
+        display = progress.Display(campaign, options.out, options.jobs)
         with open(options.out / "snakemake.log", "wb") as log:
             code = watched(snakemake(campaign, options), display, log)
         return concluded(campaign, options, code)

@@ -173,6 +173,7 @@ def section(comparison, pictures):
         + [pair_row(pair, "explored, mean over time, m³") for pair in averages],
         "graph": graph_rows(comparison),
         "best_possible": sorted(comparison.best_possible), "ratios": ratio_rows(comparison),
+        "best_possible_problem": comparison.best_possible_problem,
         "volume": pictures.of(comparison, "volume", "Explored volume over time",
                               figures.draw_volume, pictures.styles),
         "clearance": pictures.of(comparison, "clearance", "Clearance over time",

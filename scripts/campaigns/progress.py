@@ -7,6 +7,8 @@ import time
 
 from campaigns import table
 
+START = "\r\x1b[K"  # of a line that replaces what stands there
+
 
 def clock(seconds):
     """1:02:03."""
@@ -64,13 +66,20 @@ def kinds_text(outcomes):
 class Display:
     """One line that is rewritten on a terminal, else one line a mission."""
 
-    def __init__(self, campaign, folder, jobs):
-        self.campaign, self.folder, self.jobs = campaign, folder, jobs
+    def __init__(self, campaign, out, jobs):
+        self.campaign, self.jobs = campaign, jobs
+        self.folder, self.best_folder = out / "missions", out / "best_possible"
         self.begin = time.monotonic()
-        self.seen = set(outcomes_of(campaign.missions, folder))
+        self.seen = set(outcomes_of(campaign.missions, self.folder))
+        self.best_seen = set(outcomes_of(campaign.best_possible, self.best_folder))
 
     def show(self):
         """Looks at what is complete and says what is new."""
+        best = outcomes_of(self.campaign.best_possible, self.best_folder)
+        for name in sorted(set(best) - self.best_seen):
+            print(f"{START if sys.stdout.isatty() else ''}best_possible {name}: "
+                  f"{best[name]['kind']}: {best[name]['reason']}", flush=True)
+            self.best_seen.add(name)
         outcomes = outcomes_of(self.campaign.missions, self.folder)
         for name in sorted(set(outcomes) - self.seen):
             self.say(name, outcomes[name], len(self.seen) + 1)
@@ -80,14 +89,14 @@ class Display:
             rest = "" if left is None else f", about {clock(left)} left"
             line = f"{self.count(len(outcomes))} {kinds_text(outcomes)}; " \
                    f"{clock(time.monotonic() - self.begin)} gone{rest}"
-            print(f"\r\x1b[K{line[:shutil.get_terminal_size().columns - 1]}", end="", flush=True)
+            print(f"{START}{line[:shutil.get_terminal_size().columns - 1]}", end="", flush=True)
 
     def count(self, done):
         return f"[{done}/{len(self.campaign.missions)}]"
 
     def say(self, name, outcome, done):
         """One mission has ended."""
-        start = "\r\x1b[K" if sys.stdout.isatty() else ""
+        start = START if sys.stdout.isatty() else ""
         print(f"{start}{self.count(done)} {name}: {outcome['kind']} after "
               f"{outcome['wall_time_s']:.0f} s: {outcome['reason']}", flush=True)
         if not sys.stdout.isatty():

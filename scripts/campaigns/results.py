@@ -73,6 +73,7 @@ class Comparison:
     series: tuple
     best_possible: dict  # "bound" and "tour" where known: columns t_s, explored_m3
     references: tuple
+    best_possible_problem: str = ""  # why less is known than was asked for
 
     @property
     def name(self):
@@ -118,6 +119,13 @@ def read_best_possible(folder, name):
             if (place / file).exists()}
 
 
+def best_possible_problem(folder, name):
+    """What kept the best possible from being found out; nothing if it was or nobody asked."""
+    path = folder / "best_possible" / name / "outcome.json"
+    outcome = json.loads(path.read_text()) if path.exists() else {"kind": "finished"}
+    return "" if outcome["kind"] == "finished" else f"{outcome['kind']}: {outcome['reason']}"
+
+
 def series_of(runs):
     """Measured runs by planner and parameter set, which is named where a planner has several."""
     groups = {}
@@ -143,7 +151,9 @@ def comparisons_of(folder, runs, references):
                         if (item["world"], item["robot"], item["time_limit_s"])
                         == (world, robot, time_limit_s))
         bare = Comparison(world, robot, time_limit_s, series_of(members), {}, fitting)
-        found.append(dataclasses.replace(bare, best_possible=read_best_possible(folder, bare.name)))
+        found.append(dataclasses.replace(
+            bare, best_possible=read_best_possible(folder, bare.name),
+            best_possible_problem=best_possible_problem(folder, bare.name)))
     return tuple(found)
 
 

@@ -123,12 +123,13 @@ class Interruption(support.InTemporaryFolder):
         self.check_resumed()
 
     def test_half_flown_folders_are_removed_and_others_kept(self):
-        missions = self.out / "missions"
-        for name in (".room__aerial__steady__default__10__001.part.host.7", "room__a"):
-            (missions / name).mkdir(parents=True)
-            (missions / name / "timeline.csv").write_text("t_s,expl")
-        front.remove_unfinished(missions)
-        self.assertEqual([path.name for path in missions.iterdir()], ["room__a"])
+        for place in (self.out / "missions", self.out / "best_possible"):
+            for name in (".room__aerial__steady__default__10__001.part.host.7", "room__a"):
+                (place / name).mkdir(parents=True)
+                (place / name / "timeline.csv").write_text("t_s,expl")
+        front.remove_unfinished(self.out)
+        for place in (self.out / "missions", self.out / "best_possible"):
+            self.assertEqual([path.name for path in place.iterdir()], ["room__a"])
 
 
 class Machine(support.InTemporaryFolder):
