@@ -53,6 +53,12 @@ class HomeGraph {
   /// graph is cut.
   [[nodiscard]] std::optional<Path> wayFrom(const Pose& from);
 
+  /// Places that home is still reachable from, nearest to `from` first, some metres apart.
+  [[nodiscard]] std::vector<Pose> placesBeforeHome(const Pose& from);
+  /// Where the trail is cut: the place nearest to `from` that has a part leading home on one side
+  /// and one that does not on the other; none if nothing flown is cut.
+  [[nodiscard]] std::optional<Eigen::Vector3d> findCut(const Pose& from);
+
   [[nodiscard]] const Path& trail() const { return trail_; }
   [[nodiscard]] const Pose& home() const { return trail_.front(); }
   [[nodiscard]] std::size_t size() const { return graph_.vertexCount(); }
