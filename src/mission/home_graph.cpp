@@ -211,11 +211,19 @@ std::vector<Pose> HomeGraph::placesBeforeHome(const Pose& from) {
 std::optional<Eigen::Vector3d> HomeGraph::findCut(const Pose& from) {
   const graph::ShortestPaths& paths = fromHome();
   std::optional<Eigen::Vector3d> nearest;
+  std::optional<graph::VertexId> begin;  // of a run of edges that are cut, one after the other
   for (const Edge& edge : edges_) {
-    if (!edge.is_flown || paths.reaches(edge.a) == paths.reaches(edge.b)) continue;
-    const Eigen::Vector3d middle = 0.5 * (graph_.position(edge.a) + graph_.position(edge.b));
-    if (!nearest || (middle - from.position).norm() < (*nearest - from.position).norm())
-      nearest = middle;
+    if (!edge.is_flown) continue;
+    if (edge.state == EdgeState::kCut) {
+      if (!begin) begin = edge.a;
+      continue;
+    }
+    if (begin && paths.reaches(*begin) != paths.reaches(edge.a)) {
+      const Eigen::Vector3d middle = 0.5 * (graph_.position(*begin) + graph_.position(edge.a));
+      if (!nearest || (middle - from.position).norm() < (*nearest - from.position).norm())
+        nearest = middle;
+    }
+    begin.reset();
   }
   return nearest;
 }

@@ -8,7 +8,7 @@ namespace spelunk::mission {
 namespace {
 
 constexpr int kIterations = 4000;          // of one query; several follow each other
-constexpr std::size_t kPlacesOnTrail = 4;  // that home is still reachable from
+constexpr std::size_t kPlacesOnTrail = 3;  // that home is still reachable from
 constexpr double kAtHomeSlack_m = 0.2;
 
 std::string placeText(const char* what, const Eigen::Vector3d& place, double metres_away) {

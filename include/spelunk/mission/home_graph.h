@@ -55,8 +55,8 @@ class HomeGraph {
 
   /// Places that home is still reachable from, nearest to `from` first, some metres apart.
   [[nodiscard]] std::vector<Pose> placesBeforeHome(const Pose& from);
-  /// Where the trail is cut: the place nearest to `from` that has a part leading home on one side
-  /// and one that does not on the other; none if nothing flown is cut.
+  /// Where the trail is cut: the middle of the cut part nearest to `from` that has home on one side
+  /// only; none if there is no such part with open trail on both sides.
   [[nodiscard]] std::optional<Eigen::Vector3d> findCut(const Pose& from);
 
   [[nodiscard]] const Path& trail() const { return trail_; }
