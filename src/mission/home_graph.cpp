@@ -17,6 +17,7 @@ constexpr double kJoinReach_m = 2.0;
 constexpr double kJoinReachOnFoot_m = 0.75;  // where it has walked, and no straight way elsewhere
 constexpr double kJoinCost = 1.5;
 constexpr std::size_t kRechecksPerCall = 20;
+constexpr double kPlaceSpacing_m = 2.0;
 
 }  // namespace
 
@@ -190,6 +191,41 @@ std::optional<Path> HomeGraph::wayFrom(const Pose& from) {
     way.push_back({graph_.position(*id), from.yaw});
   way.back().yaw = home().yaw;
   return way;
+}
+
+std::vector<Pose> HomeGraph::placesBeforeHome(const Pose& from) {
+  const graph::ShortestPaths& paths = fromHome();
+  std::vector<Pose> places;
+  for (const graph::VertexId id :
+       graph_.findWithin(from.position, std::numeric_limits<double>::infinity())) {
+    if (!paths.reaches(id)) continue;
+    const Pose place{graph_.position(id), from.yaw};
+    const bool is_apart = std::all_of(places.begin(), places.end(), [&](const Pose& other) {
+      return distance(place, other) >= kPlaceSpacing_m;
+    });
+    if (is_apart) places.push_back(place);
+  }
+  return places;
+}
+
+std::optional<Eigen::Vector3d> HomeGraph::findCut(const Pose& from) {
+  const graph::ShortestPaths& paths = fromHome();
+  std::optional<Eigen::Vector3d> nearest;
+  std::optional<graph::VertexId> begin;  // of a run of edges that are cut, one after the other
+  for (const Edge& edge : edges_) {
+    if (!edge.is_flown) continue;
+    if (edge.state == EdgeState::kCut) {
+      if (!begin) begin = edge.a;
+      continue;
+    }
+    if (begin && paths.reaches(*begin) != paths.reaches(edge.a)) {
+      const Eigen::Vector3d middle = 0.5 * (graph_.position(*begin) + graph_.position(edge.a));
+      if (!nearest || (middle - from.position).norm() < (*nearest - from.position).norm())
+        nearest = middle;
+    }
+    begin.reset();
+  }
+  return nearest;
 }
 
 }  // namespace spelunk::mission

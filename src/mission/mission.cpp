@@ -48,6 +48,10 @@ PlanOutcome run(const PlanJob& job, planners::ExplorationPlanner& planner) {
     outcome.go_to = navigation::Navigator(job.go_to->params).plan(job.go_to->query);
     return outcome;
   }
+  if (job.way_home) {
+    outcome.home = findWayHome(*job.way_home);
+    return outcome;
+  }
   planners::PlanRequest request = job.request;
   if (job.explore) {
     outcome.plan = planner.plan(request);

@@ -165,23 +165,32 @@ void Mission::Impl::launchHome() {
   if (by_trail && isTrailClear(by_trail->path, tight))
     return fly(fromMotion(*by_trail), planners::PathKind::kHome, tight);
   wants_way_home = true;
-  hold("the way home is blocked: holding and looking for another", planners::PathOutcome::kBlocked);
+  home_obstacle = whatBlocksWayHome();
+  const std::string why = home_obstacle + ": holding and looking for another";
+  if (state != MissionState::kHold || !running) return hold(why, planners::PathOutcome::kBlocked);
+  hold_since_s = now;  // an answer is under way: a new stop would throw it away
+}
+
+/// Planner and navigation are asked in turn until one of them knows a way, or the trail is free.
+void Mission::Impl::onNoWayHome(const RunningJob& job, const planners::PlanResult& home) {
+  next_ask_s = now + kHomeRetry_s;
+  wants_way_home = !active;
+  if (active) return;
+  asks_navigation = !terrain && !job.by_navigation;  // navigation knows nothing of footing
+  say(LogLevel::kWarn, "home",
+      home_obstacle +
+          (job.by_navigation ? "; no way round it is known: " : "; the planner knows no other: ") +
+          home.reason);
 }
 
 void Mission::Impl::acceptWayHome(const RunningJob& job, const planners::PlanResult& home) {
   wants_way_home = false;
   const bool late = active ? now > job.takes_over_s + 1e-6
                            : distance(input.latest()->pose, job.pose) > kRouteGap_m;
-  const bool usable =
-      home.status == planners::PlanStatus::kOk && !late && isWayClear(home.path, robot.box_m);
-  if (!usable) {
-    next_ask_s = now + kHomeRetry_s;
-    wants_way_home = !active;
-    if (!active)
-      say(LogLevel::kWarn, "home",
-          "the way home is blocked and the planner knows no other: " + home.reason);
-    return;
-  }
+  if (job.by_navigation && !active && !late && flyWayFound(home)) return;
+  const bool usable = !job.by_navigation && home.status == planners::PlanStatus::kOk && !late &&
+                      isWayClear(home.path, robot.box_m);
+  if (!usable) return onNoWayHome(job, home);
   const Path whole = joined(job, home.path);
   const double travel = navigation::travelTime(whole, limitsOf(robot));
   if (active && travel > kWorthReplacing * (active->endTime() - now)) return;

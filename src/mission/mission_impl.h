@@ -30,6 +30,7 @@ struct RunningJob {
   std::uint64_t number = 0;
   bool explore = true;
   bool from_standstill = false;
+  bool by_navigation = false;  ///< The mission's own search for a way home, not the planner's.
   double asked_s = 0.0;
   double takes_over_s = 0.0;  ///< When the robot is where the plan begins.
   Pose pose;                  ///< There.
@@ -70,7 +71,7 @@ struct WayHome {
 
 /// State and steps of the mission. Steps that belong together share a .cpp:
 /// mission_inputs, mission_goto, mission_goto_plans, mission_cycle, mission_ground, mission_plans,
-/// mission_home.
+/// mission_home, mission_way_home.
 constexpr double kBodyShare = 0.5;  // of the safety box: returns from there are the robot itself
 
 struct Mission::Impl {
@@ -160,7 +161,12 @@ struct Mission::Impl {
   std::optional<Command> accept(const PlanOutcome& outcome, double now_s);
   /// The planner's path with the full safety box; where the robot's margin already touches
   /// something, its first short step out of there with the body alone.
-  [[nodiscard]] navigation::PathCheck checkProposal(const Path& path);
+  [[nodiscard]] navigation::PathCheck checkProposal(const Path& path) {
+    return checkLeaving(path, robot.box_m, no_go, limits);
+  }
+  [[nodiscard]] navigation::PathCheck checkLeaving(const Path& path, const Eigen::Vector3d& box,
+                                                   const std::vector<NoGoZone>& zones,
+                                                   const AxisAlignedBox& bounds);
   void acceptExploration(const RunningJob& job, const PlanOutcome& outcome);
   void acceptWayHome(const RunningJob& job, const planners::PlanResult& home);
   void onNoPlan(const RunningJob& job, const planners::PlanResult& plan);
@@ -185,6 +191,7 @@ struct Mission::Impl {
   void goHome(const std::string& why);
   void stepHome();
   void launchHome();
+  void onNoWayHome(const RunningJob& job, const planners::PlanResult& home);
   [[nodiscard]] Path fromMotion(const WayHome& way) const;
   /// The configuration space of a box in the map as it is now.
   [[nodiscard]] map::ConfigurationSpace& spaceOf(
@@ -193,6 +200,15 @@ struct Mission::Impl {
   /// The same for the robot's own trail, where marked ground has been walked on.
   [[nodiscard]] bool isTrailClear(const Path& path, const Eigen::Vector3d& box);
   [[nodiscard]] bool isAtHome() const;
+
+  // --- Another way home when the trail is cut (mission_way_home.cpp).
+  [[nodiscard]] WayHomeSearch searchForWayHome(const RunningJob& job);
+  void addQuery(WayHomeSearch& search, const RunningJob& job, const std::optional<Pose>& goal_pose,
+                const Eigen::Vector3d& box) const;
+  [[nodiscard]] std::optional<Pose> placeAtHome(const Eigen::Vector3d& box);
+  [[nodiscard]] std::vector<Pose> placesOnTrail();
+  [[nodiscard]] bool flyWayFound(const planners::PlanResult& found);
+  [[nodiscard]] std::string whatBlocksWayHome();
 
   // --- Parts.
   MissionParams params;
@@ -230,7 +246,7 @@ struct Mission::Impl {
   std::deque<map::ConfigurationSpace> spaces;  ///< One a box that was asked for.
   Eigen::Isometry3d T_world_base = Eigen::Isometry3d::Identity();  ///< Newest, of the base itself.
   double next_ground_check_s = 0.0;
-  std::map<std::string, double> ground_scans;  ///< Stamp of the newest one in the terrain map.
+  std::map<std::string, double> ground_scans;   ///< Stamp of the newest one in the terrain map.
   std::optional<Eigen::Vector3d> unseen_place;  ///< The robot has stood before it to look.
   double next_retime_s = 0.0;
   bool backs_off = false;
@@ -245,6 +261,8 @@ struct Mission::Impl {
   double latency_s = 0.0;
   int failures = 0;
   bool wants_way_home = false;
+  bool asks_navigation = false;  ///< The next way home is the mission's own search.
+  std::string home_obstacle;     ///< What lay between the robot and home at the last try.
   planners::PathOutcome last_outcome = planners::PathOutcome::kNone;
   std::string last_reason;
 

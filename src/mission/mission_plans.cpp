@@ -89,6 +89,8 @@ void Mission::Impl::makeJob() {
   request.last_reason = last_reason;
   request.budget.iterations = params.max_samples;
   request.rng = rng.fork("plan/" + std::to_string(job.number));
+  job.by_navigation = goal == Goal::kHome && !active && asks_navigation;
+  if (job.by_navigation) plan.way_home = searchForWayHome(job);
   pending = std::move(plan);
   running = job;
 }
@@ -125,15 +127,16 @@ Path Mission::Impl::joined(const RunningJob& job, const Path& path) const {
   return whole;
 }
 
-navigation::PathCheck Mission::Impl::checkProposal(const Path& path) {
-  const auto check = navigation::checkPath(spaceOf(robot.box_m), path, no_go, limits);
+navigation::PathCheck Mission::Impl::checkLeaving(const Path& path, const Eigen::Vector3d& box,
+                                                  const std::vector<NoGoZone>& zones,
+                                                  const AxisAlignedBox& bounds) {
+  const auto check = navigation::checkPath(spaceOf(box), path, zones, bounds);
   constexpr double kStepOut_m = 0.7;
   if (check.isFree() || path.size() < 2 || distance(path[0], path[1]) > kStepOut_m) return check;
   const Path step_out(path.begin(), path.begin() + 2);
-  if (!navigation::checkPath(spaceOf(kBodyShare * robot.box_m), step_out, no_go, {}).isFree())
+  if (!navigation::checkPath(spaceOf(kBodyShare * robot.box_m), step_out, zones, {}).isFree())
     return check;
-  return navigation::checkPath(spaceOf(robot.box_m), Path(path.begin() + 1, path.end()), no_go,
-                               limits);
+  return navigation::checkPath(spaceOf(box), Path(path.begin() + 1, path.end()), zones, bounds);
 }
 
 void Mission::Impl::acceptExploration(const RunningJob& job, const PlanOutcome& outcome) {
@@ -247,6 +250,7 @@ void Mission::Impl::fly(const Path& path, planners::PathKind kind, const Eigen::
   active.emplace(whole, trajectory, kind, box, map.params().resolution_m);
   command = Command{std::move(whole), std::move(trajectory), kind};
   next_refresh_s = now;
+  asks_navigation = false;
   switch (kind) {
     case planners::PathKind::kLocal:
       return enter(MissionState::kExplore, "local path");

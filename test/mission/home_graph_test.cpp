@@ -75,6 +75,31 @@ TEST(HomeGraph, NewObstacleCutsShortcutsAndTrail) {
   EXPECT_TRUE(graph.wayFrom({{10.0, 4.5, 2.5}, 0.0}));
 }
 
+TEST(HomeGraph, CutTrailTellsWhereAndWhatStillLeadsHome) {
+  HomeGraph graph = outAndBack();
+  const Pose robot{{20.0, 2.5, 2.5}, 0.0};
+  EXPECT_FALSE(graph.findCut(robot));
+  std::vector<map::VoxelIndex> wall;  // x 12 .. 12.25 across the first leg
+  for (int y = 4; y < 14; ++y)
+    for (int z = 4; z < 16; ++z) wall.emplace_back(48, y, z);
+  graph.noteOccupied(wall);
+  const auto cut = graph.findCut(robot);
+  ASSERT_TRUE(cut);
+  EXPECT_NEAR(cut->x(), 12.1, 1.0);
+  EXPECT_EQ(cut->y(), 2.5);
+  const std::vector<Pose> places = graph.placesBeforeHome(robot);
+  ASSERT_GE(places.size(), 4U);
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    EXPECT_LT(places[i].position.x(), 12.0);
+    EXPECT_TRUE(graph.wayFrom(places[i]));
+    for (std::size_t k = 0; k < i; ++k) {
+      EXPECT_GE(distance(places[i], robot), distance(places[k], robot));
+      EXPECT_GE(distance(places[i], places[k]), 2.0);
+    }
+  }
+  EXPECT_GT(places.front().position.x(), 10.0);
+}
+
 TEST(HomeGraph, FlownEdgeWithoutMarginStaysAsLastResort) {
   HomeGraph graph({{3.0, 2.4, 2.5}, 0.0}, kBox, kResolution_m);
   for (double x = 3.0; x <= 20.0; x += 0.25) graph.addTrail({{x, 2.4, 2.5}, 0.0});

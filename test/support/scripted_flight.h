@@ -81,10 +81,9 @@ inline map::MapParams coarseMap() {
 class ScriptedFlight {
  public:
   ScriptedFlight(GridWorld world, const Pose& start, planners::ExplorationPlanner& planner,
-                 const mission::MissionParams& params = {}, std::uint64_t seed = 1)
-      : world_(std::move(world)),
-        planner_(planner),
-        mission_(params, smallRobot(), coarseMap(), seed) {
+                 const mission::MissionParams& params = {}, std::uint64_t seed = 1,
+                 const RobotModel& robot = smallRobot())
+      : world_(std::move(world)), planner_(planner), mission_(params, robot, coarseMap(), seed) {
     state_.pose = start;
   }
 
@@ -105,7 +104,13 @@ class ScriptedFlight {
     sense();
     if (budget_s_) mission_.onRemaining(std::max(0.0, *budget_s_ - now_));
     obey(mission_.tick(now_));
-    if (const auto job = mission_.takeJob()) obey(mission_.accept(run(*job, planner_), now_));
+    if (const auto job = mission_.takeJob()) {
+      outcome_ = run(*job, planner_);
+      outcome_due_s_ = now_ + plan_time_s_;
+    }
+    if (!outcome_ || now_ < outcome_due_s_) return;
+    obey(mission_.accept(*outcome_, now_));
+    outcome_.reset();
   }
 
   void flyFor(double seconds) {
@@ -117,6 +122,8 @@ class ScriptedFlight {
     return mission_.status().state == mission::MissionState::kDone;
   }
 
+  /// How long plans take; else they are there at once.
+  void setPlanTime(double seconds) { plan_time_s_ = seconds; }
   void setBudget(double seconds) { budget_s_ = seconds; }
   void muteOdometry() { odometry_ = false; }
   void muteScans() { scans_ = false; }
@@ -169,6 +176,9 @@ class ScriptedFlight {
   Trajectory trajectory_;
   Eigen::Vector3d offset_ = Eigen::Vector3d::Zero();
   std::optional<double> budget_s_;
+  std::optional<mission::PlanOutcome> outcome_;
+  double outcome_due_s_ = 0.0;
+  double plan_time_s_ = 0.0;
   std::optional<mission::Command> last_;
   double now_ = 0.0;
   int senses_ = 0;

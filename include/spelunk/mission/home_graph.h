@@ -53,6 +53,12 @@ class HomeGraph {
   /// graph is cut.
   [[nodiscard]] std::optional<Path> wayFrom(const Pose& from);
 
+  /// Places that home is still reachable from, nearest to `from` first, some metres apart.
+  [[nodiscard]] std::vector<Pose> placesBeforeHome(const Pose& from);
+  /// Where the trail is cut: the middle of the cut part nearest to `from` that has home on one side
+  /// only; none if there is no such part with open trail on both sides.
+  [[nodiscard]] std::optional<Eigen::Vector3d> findCut(const Pose& from);
+
   [[nodiscard]] const Path& trail() const { return trail_; }
   [[nodiscard]] const Pose& home() const { return trail_.front(); }
   [[nodiscard]] std::size_t size() const { return graph_.vertexCount(); }

@@ -9,6 +9,7 @@
 #include "spelunk/common/robot_model.h"
 #include "spelunk/common/trajectory.h"
 #include "spelunk/map/occupancy_map.h"
+#include "spelunk/mission/way_home_search.h"
 #include "spelunk/navigation/navigator.h"
 #include "spelunk/planners/exploration_planner.h"
 #include "spelunk/terrain/terrain_map.h"
@@ -76,6 +77,8 @@ struct PlanJob {
   planners::PlanRequest request;
   bool explore = true;                 ///< false: only the way home is asked for.
   std::optional<NavigationJob> go_to;  ///< If set, nothing else is asked for.
+  /// If set, the way home is looked for by navigation and the planner is not asked.
+  std::optional<WayHomeSearch> way_home;
   std::uint64_t number = 0;
 };
 
