@@ -125,7 +125,8 @@ def rank(summary):
 
 def best_flight(options, folder):
     """Lays out and flies until that is worth it no more; the best summary, its files in place."""
-    speed_share, best, kept, attempt = FIRST_SPEED_SHARE, None, folder / ".best", folder / ".attempt"
+    speed_share, best = FIRST_SPEED_SHARE, None
+    kept, attempt = folder / ".best", folder / ".attempt"
     for _ in range(LAYOUTS):
         attempt.mkdir()
         tour = lay_out(options, folder, attempt, speed_share)

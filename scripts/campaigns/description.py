@@ -290,7 +290,8 @@ def parse(content, meshes=None):
         reader.problems.append("meshes: must be a map from name to the path of a mesh")
         described = {}
     return Campaign(str(content.get("title", "Campaign")), distinct(missions, reader.problems),
-                    best_possible_of(reader.asked, reader.problems), {**described, **(meshes or {})},
+                    best_possible_of(reader.asked, reader.problems),
+                    {**described, **(meshes or {})},
                     reader.references(content.get("references"))), reader.problems
 
 

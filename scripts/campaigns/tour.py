@@ -2,8 +2,8 @@
 
     python3 -m campaigns.tour FOLDER --time-limit-s T [--out DIR] [--speed-share S]
 
-Reads survey.json and survey_seen.bin, writes tour_points.csv (x_m,y_m,z_m) and tour.json. This is an
-orienteering problem whose prize is a volume that many outlooks share. It begins with the outlooks
+Reads survey.json and survey_seen.bin, writes tour_points.csv (x_m,y_m,z_m) and tour.json. This is
+an orienteering problem whose prize is a volume that many outlooks share. It begins with the outlooks
 that are worth most a metre of detour. Then, again and again, a part of the tour is given up, the
 rest is ordered anew by the routing solver of OR-tools, and what this leaves of the way is spent on
 the detours that are worth most now (ruin and recreate). Of all tours that are home in time the one
