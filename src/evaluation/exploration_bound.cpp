@@ -129,6 +129,16 @@ bool isClear(const VoxelGrid& grid, const Eigen::Vector3d& from, const Eigen::Ve
   return true;
 }
 
+BoundParams coarsened(BoundParams params, const ReachableSpace& space) {
+  const double volume_m3 = static_cast<double>(space.free_voxels + space.surface_voxels) *
+                           std::pow(space.free.resolution(), 3);
+  const double factor = std::max(1.0, std::cbrt(volume_m3 / params.volume_m3));
+  params.cell_m *= factor;
+  params.target_m *= factor;
+  params.grid_m *= factor;
+  return params;
+}
+
 }  // namespace
 
 struct ExplorationBound::Impl {
@@ -150,9 +160,9 @@ struct ExplorationBound::Impl {
 
   Impl(const sim::WorldMesh& mesh, const Pose& start, const RobotModel& robot,
        const BoundParams& bound_params)
-      : params(bound_params),
-        speed_mps(robot.speed_max_mps),
+      : speed_mps(robot.speed_max_mps),
         space(reachableSpace(mesh, start.position)),
+        params(coarsened(bound_params, space)),
         targets(space, params.target_m) {
     double mount_m = 0.0;
     for (const SensorModel& sensor : robot.sensor_models)
@@ -178,9 +188,9 @@ struct ExplorationBound::Impl {
   [[nodiscard]] double volumeWithin(double distance_m) const;
   [[nodiscard]] double volumeOfPath(double length_m, double distance_m) const;
 
-  BoundParams params;
   double speed_mps;
   ReachableSpace space;
+  BoundParams params;
   TargetVoxels targets;
   std::vector<Cell> cells;           ///< By distance.
   std::vector<double> seen_within;   ///< Volume of the union of the cells up to each.

@@ -141,6 +141,19 @@ TEST(ExplorationBound, GrowsWithSpeedAndRange) {
   EXPECT_LT(blind[20], 0.9 * slow[20]);
 }
 
+TEST(ExplorationBound, HoldsForWorldsLookedAtMoreCoarselyToo) {
+  const sim::WorldMesh mesh = worldOf("two_shaft");
+  const RobotModel robot = robotThatSees(50.0);
+  BoundParams coarse;
+  coarse.volume_m3 = reachableVolume(mesh, mesh.start->position).total_m3 / 8.0;  // twice the edges
+  const auto fine = ExplorationBound(mesh, *mesh.start, robot).over(60.0);
+  const auto loose = ExplorationBound(mesh, *mesh.start, robot, coarse).over(60.0);
+  const std::vector<double> flown = erraticFlight(mesh, robot, 60, Rng(4));
+  for (std::size_t second = 0; second < flown.size(); ++second)
+    ASSERT_LE(flown[second], loose[second]) << "at " << second << " s";
+  EXPECT_NEAR(loose.back(), fine.back(), 1e-6 * fine.back());
+}
+
 TEST(ExplorationBound, RefusesAStartInTheRock) {
   const sim::WorldMesh mesh = twoHalls();
   EXPECT_THROW(ExplorationBound(mesh, {{30.0, 30.0, 1.0}, 0.0}, robotThatSees(10.0)), OutsideError);

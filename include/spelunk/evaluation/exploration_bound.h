@@ -14,6 +14,9 @@ struct BoundParams {
   double cell_m = 2.0;    ///< Edge of a cell of positions.
   double target_m = 1.0;  ///< Edge of a voxel that is seen or not.
   double grid_m = 0.5;    ///< Voxels of lines of sight and of travel distances.
+  /// Where there is more to see than this, all edges grow with the cube root of the ratio: the cost
+  /// of the bound grows with the square of the volume.
+  double volume_m3 = 40000.0;
 };
 
 /// An upper bound on the part of the reachable volume (reachable_volume.h) that any planner can
