@@ -21,6 +21,7 @@ constexpr double kShortestCut_m = 2.0;  // less is not worth the way
 constexpr double kStartGap_m = 0.5;
 constexpr double kCornerTolerances_m[] = {0.6, 0.3};
 constexpr double kLeastTolerance_m = 0.1;
+constexpr double kTightTolerance_m = 0.02;  // without its margin the box has no room for more
 constexpr double kLineTolerance_m = 0.02;
 
 Path pathOf(const std::vector<Eigen::Vector3d>& points) {
@@ -232,7 +233,9 @@ Trajectory Mission::Impl::smoothest(const Path& path, const navigation::MotionSt
     line = pathOf(navigation::straightened(line, kLineTolerance_m));
     if (navigation::checkPath(space, line, no_go, {}).isFree()) return trajectory;
   }
-  return navigation::timed(path, limits_of_robot, start, kLeastTolerance_m);
+  const bool is_tight = box.x() < robot.box_m.x();
+  return navigation::timed(path, limits_of_robot, start,
+                           is_tight ? kTightTolerance_m : kLeastTolerance_m);
 }
 
 void Mission::Impl::fly(const Path& path, planners::PathKind kind, const Eigen::Vector3d& box,
