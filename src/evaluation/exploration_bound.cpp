@@ -6,14 +6,13 @@
 #include <queue>
 #include <utility>
 
+#include "coarse_space.h"
 #include "spelunk/common/contract.h"
 #include "spelunk/evaluation/reachable_volume.h"
 #include "spelunk/evaluation/target_voxels.h"
 
 namespace spelunk::evaluation {
 namespace {
-
-constexpr double kLink_m = 3.0;  // of the chain that stands for a path
 
 /// Sizes of the sets A the bound is taken over.
 constexpr std::size_t kSetSizes[] = {0, 2, 4, 8, 16, 32, 64, 128};
@@ -22,112 +21,6 @@ constexpr std::size_t kSetSizes[] = {0, 2, 4, 8, 16, 32, 64, 128};
 constexpr int kHalfPieces[] = {1, 2, 4, 8, 16};
 
 double halfDiagonal(double edge_m) { return 0.5 * std::sqrt(3.0) * edge_m; }
-
-std::size_t at(const VoxelGrid& grid, const Eigen::Vector3d& point) {
-  return grid.offsetOf(grid.cellOf(point));
-}
-
-/// Voxels that hold a reachable point, of a grid with room around them.
-VoxelGrid coarse(const ReachableSpace& space, const AxisAlignedBox& bounds, double room_m,
-                 double edge_m) {
-  AxisAlignedBox wide = bounds;
-  wide.min.array() -= room_m;
-  wide.max.array() += room_m;
-  VoxelGrid grid(wide, edge_m);
-  const auto take = [&grid](const VoxelGrid& fine) {
-    fine.forEachSet(
-        [&](std::size_t offset) { grid.set(at(grid, fine.centreOf(fine.cellAt(offset)))); });
-  };
-  take(space.free);
-  take(space.surface);
-  return grid;
-}
-
-/// Index differences that satisfy a condition, within `reach` on every axis.
-template <class Condition>
-std::vector<Eigen::Vector3i> stencil(int reach, Condition&& isIn) {
-  std::vector<Eigen::Vector3i> offsets;
-  for (int z = -reach; z <= reach; ++z)
-    for (int y = -reach; y <= reach; ++y)
-      for (int x = -reach; x <= reach; ++x)
-        if (isIn(Eigen::Vector3d(x, y, z))) offsets.emplace_back(x, y, z);
-  return offsets;
-}
-
-/// All voxels whose centre lies within `radius_m` of the centre of a set one.
-VoxelGrid grown(const VoxelGrid& grid, double radius_m) {
-  const double radius = radius_m / grid.resolution();
-  const auto ball = stencil(static_cast<int>(std::ceil(radius)),
-                            [&](const Eigen::Vector3d& step) { return step.norm() <= radius; });
-  const auto box = stencil(1, [](const Eigen::Vector3d&) { return true; });
-  VoxelGrid result = grid;
-  grid.forEachSet([&](std::size_t offset) {
-    const Eigen::Vector3i cell = grid.cellAt(offset);
-    const bool is_inner = std::all_of(box.begin(), box.end(), [&](const Eigen::Vector3i& step) {
-      return grid.contains(cell + step) && grid.isSet(grid.offsetOf(cell + step));
-    });
-    if (is_inner) return;  // what it reaches, a voxel of the border reaches too
-    for (const Eigen::Vector3i& step : ball)
-      if (result.contains(cell + step)) result.set(result.offsetOf(cell + step));
-  });
-  return result;
-}
-
-/// Links of kLink_m from the start to every set voxel, by its offset; the longest int where none
-/// lead.
-std::vector<int> linksFrom(const Eigen::Vector3d& start, const VoxelGrid& grid) {
-  constexpr int kNever = std::numeric_limits<int>::max();
-  const double reach = kLink_m / grid.resolution();
-  const auto near = stencil(static_cast<int>(reach) + 1, [&](const Eigen::Vector3d& step) {
-    return (step.array().abs() - 1.0).max(0.0).matrix().norm() <= reach;
-  });
-  const Eigen::Vector3i size = grid.size();
-  std::vector<int> links(grid.offsetOf(size - Eigen::Vector3i::Ones()) + 1, kNever);
-  std::vector<std::size_t> layer{at(grid, start)};
-  links[layer.front()] = 0;
-  for (int count = 1; !layer.empty(); ++count) {
-    std::vector<std::size_t> next;
-    for (const std::size_t offset : layer) {
-      const Eigen::Vector3i cell = grid.cellAt(offset);
-      for (const Eigen::Vector3i& step : near) {
-        const Eigen::Vector3i other = cell + step;
-        if (!grid.contains(other)) continue;
-        const std::size_t place = grid.offsetOf(other);
-        if (links[place] != kNever || !grid.isSet(place)) continue;
-        links[place] = count;
-        next.push_back(place);
-      }
-    }
-    layer = std::move(next);
-  }
-  return links;
-}
-
-/// Whether the straight line between two points of a grid runs through set voxels only.
-bool isClear(const VoxelGrid& grid, const Eigen::Vector3d& from, const Eigen::Vector3d& to) {
-  const Eigen::Vector3d a = grid.scaled(from);
-  const Eigen::Vector3d way = grid.scaled(to) - a;
-  Eigen::Vector3i cell = grid.cellOf(from);
-  const Eigen::Vector3i end = grid.cellOf(to);
-  Eigen::Vector3d next;
-  Eigen::Vector3d spacing;
-  Eigen::Vector3i step;
-  for (int i = 0; i < 3; ++i) {
-    step(i) = way(i) > 0.0 ? 1 : -1;
-    spacing(i) = way(i) == 0.0 ? std::numeric_limits<double>::infinity() : 1.0 / std::abs(way(i));
-    const double border = step(i) > 0 ? cell(i) + 1.0 - a(i) : a(i) - cell(i);
-    next(i) = way(i) == 0.0 ? spacing(i) : border * spacing(i);
-  }
-  for (int left = (end - cell).cwiseAbs().sum(); left >= 0; --left) {
-    if (!grid.isSet(grid.offsetOf(cell))) return false;
-    int axis = 0;
-    next.minCoeff(&axis);
-    if (left == 0) break;
-    cell(axis) += step(axis);
-    next(axis) += spacing(axis);
-  }
-  return true;
-}
 
 BoundParams coarsened(BoundParams params, const ReachableSpace& space) {
   const double volume_m3 = static_cast<double>(space.free_voxels + space.surface_voxels) *
@@ -205,7 +98,7 @@ void ExplorationBound::Impl::makeCells(const Eigen::Vector3d& start, const Voxel
     grid.forEachSet([&](std::size_t offset) {
       const Eigen::Vector3d point = grid.centreOf(grid.cellAt(offset));
       int& best = fewest[*positions.find(point)];
-      best = std::min(best, links[at(held, point)]);
+      best = std::min(best, links[offsetAt(held, point)]);
     });
   };
   take(space.free);

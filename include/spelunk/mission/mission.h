@@ -195,7 +195,8 @@ class Mission {
   [[nodiscard]] MissionStatus status() const;
   // Paths are those of the robot's base.
   [[nodiscard]] Path activePath() const;
-  /// The newest plan of a flight to a point, its trees included; none while there is no such flight.
+  /// The newest plan of a flight to a point, its trees included; none while there is no such
+  /// flight.
   [[nodiscard]] std::optional<navigation::NavigationAnswer> goToPlan() const;
   [[nodiscard]] Path wayHome() const;  ///< From about here; the best that is known.
   [[nodiscard]] Path trail() const;

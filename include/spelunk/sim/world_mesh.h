@@ -28,8 +28,8 @@ struct WorldMesh {
 /// Writes binary STL. Throws OutsideError.
 void saveStl(const WorldMesh& mesh, const std::string& path);
 
-/// Where generated worlds are kept: $SPELUNK_CACHE, else spelunk in $XDG_CACHE_HOME, in ~/.cache or,
-/// without a home, in the folder for temporary files.
+/// Where generated worlds are kept: $SPELUNK_CACHE, else spelunk in $XDG_CACHE_HOME, in ~/.cache
+/// or, without a home, in the folder for temporary files.
 [[nodiscard]] std::string defaultCacheDir();
 
 /// A name from `worlds_dir` (worlds/<name>.yaml, generated on first use and cached in `cache_dir`,
