@@ -1,7 +1,6 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <cstdlib>
-#include <fstream>
 #include <iostream>
 
 #include "command_line.h"
@@ -13,6 +12,7 @@
 #include "spelunk/mission/run_config.h"
 #include "spelunk/sim/mesh_scene.h"
 #include "spelunk/sim/world_mesh.h"
+#include "write_file.h"
 
 namespace {
 
@@ -30,16 +30,13 @@ struct Options {
 };
 
 void writeBound(const std::vector<double>& bound, const std::string& path) {
-  std::ofstream file(path);
-  file << "t_s,explored_m3\n";
+  std::string text = "t_s,explored_m3\n";
   for (std::size_t second = 0; second < bound.size(); ++second) {
     char line[64];
     std::snprintf(line, sizeof line, "%zu.000,%.3f\n", second, bound[second]);
-    file << line;
+    text += line;
   }
-  file.flush();
-  if (!file)
-    throw OutsideError("cannot write '" + path + "': is the folder writable, the disk full?");
+  spelunk::evaluation::writeFile(path, text);
 }
 
 void survey(const Options& options) {

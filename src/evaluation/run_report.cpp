@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "spelunk/common/contract.h"
+#include "write_file.h"
 
 namespace spelunk::evaluation {
 namespace {
@@ -31,13 +32,6 @@ std::string quoted(const std::string& text) {
   for (const char c : text)
     out += c == '"' ? std::string("\"\"") : std::string(1, c == '\n' ? ' ' : c);
   return out + "\"";
-}
-
-void writeText(const std::string& path, const std::string& text) {
-  std::ofstream file(path, std::ios::binary);
-  file << text;
-  file.close();
-  if (!file) throw OutsideError("cannot write '" + path + "': check the folder's rights and space");
 }
 
 std::string timelineText(const std::vector<TimelineRow>& rows) {
@@ -184,10 +178,10 @@ void requireWritable(const std::string& folder) {
 }
 
 void writeReport(const std::string& folder, const ReportHeader& header, const RunRecord& record) {
-  writeText(folder + "/summary.json", summaryText(header, record));
-  writeText(folder + "/timeline.csv", timelineText(record.timeline));
-  writeText(folder + "/clearance.csv", clearanceText(record.timeline));
-  writeText(folder + "/plans.csv", plansText(record.plans));
+  writeFile(folder + "/summary.json", summaryText(header, record));
+  writeFile(folder + "/timeline.csv", timelineText(record.timeline));
+  writeFile(folder + "/clearance.csv", clearanceText(record.timeline));
+  writeFile(folder + "/plans.csv", plansText(record.plans));
 }
 
 double peakMemoryMb() {

@@ -15,13 +15,13 @@ TargetVoxels::TargetVoxels(const ReachableSpace& space, double edge_m) : edge_m_
   require(edge_m >= space.free.resolution(), "TargetVoxels: finer than the space itself");
   const Eigen::Vector3i last_cell = space.free.size() - Eigen::Vector3i::Ones();
   first_ = cellOf(space.free.centreOf(Eigen::Vector3i::Zero()));
-  size_ = cellOf(space.free.centreOf(last_cell)) - first_ + Eigen::Vector3i::Ones();
-  numbers_.assign(offsetOf(first_ + size_ - Eigen::Vector3i::Ones()) + 1, kNothing);
+  shape_.size = cellOf(space.free.centreOf(last_cell)) - first_ + Eigen::Vector3i::Ones();
+  numbers_.assign(shape_.count(), kNothing);
   const double voxel_m3 = std::pow(space.free.resolution(), 3);
   const auto take = [&](const VoxelGrid& grid) {
     grid.forEachSet([&](std::size_t offset) {
       const Eigen::Vector3i cell = cellOf(grid.centreOf(grid.cellAt(offset)));
-      std::int32_t& number = numbers_[offsetOf(cell)];
+      std::int32_t& number = numbers_[shape_.offsetOf(cell - first_)];
       if (number == kNothing) {
         number = static_cast<std::int32_t>(centres_.size());
         centres_.emplace_back(edge_m_ * (cell.cast<double>().array() + 0.5));
@@ -38,23 +38,10 @@ Eigen::Vector3i TargetVoxels::cellOf(const Eigen::Vector3d& point) const {
   return (point / edge_m_).array().floor().cast<int>();
 }
 
-bool TargetVoxels::contains(const Eigen::Vector3i& cell) const {
-  const Eigen::Array3i at = (cell - first_).array();
-  return (at >= 0).all() && (at < size_.array()).all();
-}
-
-std::size_t TargetVoxels::offsetOf(const Eigen::Vector3i& cell) const {
-  const Eigen::Vector3i at = cell - first_;
-  return static_cast<std::size_t>(at.x()) +
-         static_cast<std::size_t>(size_.x()) *
-             (static_cast<std::size_t>(at.y()) +
-              static_cast<std::size_t>(size_.y()) * static_cast<std::size_t>(at.z()));
-}
-
 std::optional<std::size_t> TargetVoxels::find(const Eigen::Vector3d& point) const {
-  const Eigen::Vector3i cell = cellOf(point);
-  if (!contains(cell)) return std::nullopt;
-  const std::int32_t number = numbers_[offsetOf(cell)];
+  const Eigen::Vector3i cell = cellOf(point) - first_;
+  if (!shape_.contains(cell)) return std::nullopt;
+  const std::int32_t number = numbers_[shape_.offsetOf(cell)];
   if (number == kNothing) return std::nullopt;
   return static_cast<std::size_t>(number);
 }

@@ -2,15 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <queue>
 #include <unordered_map>
 #include <utility>
 
-#include "spelunk/common/contract.h"
 #include "spelunk/common/sensor_model.h"
+#include "write_file.h"
 
 namespace spelunk::evaluation {
 namespace {
@@ -35,9 +34,9 @@ class Lattice {
       return ((corner - start.position).array() / step_m_.array()).floor().cast<int>();
     };
     const Eigen::Vector3i first = cellsTo(bounds.min);
-    size_ = cellsTo(bounds.max) - first + Eigen::Vector3i::Ones();
+    shape_.size = cellsTo(bounds.max) - first + Eigen::Vector3i::Ones();
     corner_ = start.position + (first.cast<double>().array() * step_m_.array()).matrix();
-    room_m_.assign(static_cast<std::size_t>(size_.cast<std::int64_t>().prod()), kUnseen);
+    room_m_.assign(shape_.count(), kUnseen);
     const auto roomAt = [&](const Eigen::Vector3d& position) {
       const Eigen::Vector3d centre = position + robot.box_lift_m * Eigen::Vector3d::UnitZ();
       const auto room = static_cast<float>(scene.boxDistance(centre, robot.box_m, kRoomy_m));
@@ -50,7 +49,7 @@ class Lattice {
   [[nodiscard]] const std::vector<std::size_t>& positions() const { return positions_; }
 
   [[nodiscard]] Eigen::Vector3d at(std::size_t number) const {
-    return corner_ + (cellOf(number).cast<double>().array() * step_m_.array()).matrix();
+    return corner_ + (shape_.cellAt(number).cast<double>().array() * step_m_.array()).matrix();
   }
 
   /// Between the robot's box at a position and the mesh, at most kRoomy_m.
@@ -59,9 +58,9 @@ class Lattice {
   /// Calls `visit` with the number and distance of each of the up to 26 neighbours with room.
   template <class Visit>
   void forEachNeighbour(std::size_t number, Visit&& visit) const {
-    const Eigen::Vector3i cell = cellOf(number);
+    const Eigen::Vector3i cell = shape_.cellAt(number);
     forEachAround(cell, [&](const Eigen::Vector3i& other) {
-      const std::size_t place = numberOf(other);
+      const std::size_t place = shape_.offsetOf(other);
       if (room_m_[place] >= 0.0F)
         visit(place, ((other - cell).cast<double>().array() * step_m_.array()).matrix().norm());
     });
@@ -77,42 +76,27 @@ class Lattice {
       for (int y = -1; y <= 1; ++y)
         for (int x = -1; x <= 1; ++x) {
           const Eigen::Vector3i other = cell + Eigen::Vector3i(x, y, z);
-          const bool is_inside =
-              (other.array() >= 0).all() && (other.array() < size_.array()).all();
-          if (is_inside && other != cell) visit(other);
+          if (shape_.contains(other) && other != cell) visit(other);
         }
   }
 
   /// The start has room by definition: the robot stands there.
   template <class Room>
   void spread(const Eigen::Vector3i& start, const Room& roomAt) {
-    positions_.push_back(numberOf(start));
+    positions_.push_back(shape_.offsetOf(start));
     room_m_[positions_.front()] = std::max(0.0F, roomAt(at(positions_.front())));
     for (std::size_t next = 0; next < positions_.size(); ++next)
-      forEachAround(cellOf(positions_[next]), [&](const Eigen::Vector3i& other) {
-        const std::size_t number = numberOf(other);
+      forEachAround(shape_.cellAt(positions_[next]), [&](const Eigen::Vector3i& other) {
+        const std::size_t number = shape_.offsetOf(other);
         if (room_m_[number] != kUnseen) return;
         room_m_[number] = roomAt(at(number));
         if (room_m_[number] >= 0.0F) positions_.push_back(number);
       });
   }
 
-  [[nodiscard]] std::size_t numberOf(const Eigen::Vector3i& cell) const {
-    return static_cast<std::size_t>(cell.x()) +
-           static_cast<std::size_t>(size_.x()) *
-               (static_cast<std::size_t>(cell.y()) +
-                static_cast<std::size_t>(size_.y()) * static_cast<std::size_t>(cell.z()));
-  }
-  [[nodiscard]] Eigen::Vector3i cellOf(std::size_t number) const {
-    const auto row = static_cast<std::size_t>(size_.x());
-    const auto layer = row * static_cast<std::size_t>(size_.y());
-    return {static_cast<int>(number % row), static_cast<int>(number % layer / row),
-            static_cast<int>(number / layer)};
-  }
-
   Eigen::Vector3d step_m_;
   Eigen::Vector3d corner_;
-  Eigen::Vector3i size_;
+  GridShape shape_;
   std::vector<float> room_m_;  ///< Or kUnseen or kNone.
   std::vector<std::size_t> positions_;
 };
@@ -251,11 +235,6 @@ class Surveyor {
   TourSurvey result_;
 };
 
-void requireWritten(const std::ofstream& file, const std::string& path) {
-  if (!file)
-    throw OutsideError("cannot write '" + path + "': is the folder writable, the disk full?");
-}
-
 nlohmann::json toJson(const std::vector<Eigen::Vector3d>& points) {
   nlohmann::json json = nlohmann::json::array();
   for (const Eigen::Vector3d& point : points) json.push_back({point.x(), point.y(), point.z()});
@@ -280,17 +259,10 @@ void writeSurvey(const TourSurvey& survey, const std::string& folder) {
                             {"length_m", way.length_m},
                             {"points", toJson(way.points)}});
   json["volumes_m3"] = survey.volumes_m3;
-  const std::string text_path = folder + "/survey.json";
-  std::ofstream text(text_path);
-  text << json.dump();
-  text.flush();
-  requireWritten(text, text_path);
-  const std::string rows_path = folder + "/survey_seen.bin";
-  std::ofstream rows(rows_path, std::ios::binary);
-  for (const auto& row : survey.seen)
-    rows.write(reinterpret_cast<const char*>(row.data()), static_cast<std::streamsize>(row.size()));
-  rows.flush();
-  requireWritten(rows, rows_path);
+  writeFile(folder + "/survey.json", json.dump());
+  std::string rows;
+  for (const auto& row : survey.seen) rows.append(row.begin(), row.end());
+  writeFile(folder + "/survey_seen.bin", rows);
 }
 
 }  // namespace spelunk::evaluation

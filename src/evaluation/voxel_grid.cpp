@@ -20,8 +20,8 @@ VoxelGrid::VoxelGrid(const AxisAlignedBox& bounds, double resolution_m)
   require(((last - first) + 1.0).prod() < kVoxelsMax,
           "VoxelGrid: the world is too large for its resolution");
   corner_ = resolution_m * first.matrix();
-  size_ = (last - first).cast<int>().matrix() + Eigen::Vector3i::Ones();
-  words_.assign((offsetOf(size_ - Eigen::Vector3i::Ones()) >> 6) + 1, 0);
+  shape_.size = (last - first).cast<int>().matrix() + Eigen::Vector3i::Ones();
+  words_.assign((shape_.count() - 1) / 64 + 1, 0);
 }
 
 Eigen::Vector3d VoxelGrid::centreOf(const Eigen::Vector3i& cell) const {

@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "spelunk/evaluation/grid_shape.h"
 #include "spelunk/evaluation/reachable_volume.h"
 
 namespace spelunk::evaluation {
@@ -24,12 +25,10 @@ class TargetVoxels {
 
  private:
   [[nodiscard]] Eigen::Vector3i cellOf(const Eigen::Vector3d& point) const;
-  [[nodiscard]] bool contains(const Eigen::Vector3i& cell) const;
-  [[nodiscard]] std::size_t offsetOf(const Eigen::Vector3i& cell) const;
 
   double edge_m_;
   Eigen::Vector3i first_ = Eigen::Vector3i::Zero();
-  Eigen::Vector3i size_ = Eigen::Vector3i::Zero();
+  GridShape shape_;
   std::vector<std::int32_t> numbers_;  ///< Of the voxels; -1: nothing there.
   std::vector<Eigen::Vector3d> centres_;
   std::vector<double> volumes_m3_;

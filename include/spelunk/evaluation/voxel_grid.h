@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "spelunk/common/box.h"
+#include "spelunk/evaluation/grid_shape.h"
 
 namespace spelunk::evaluation {
 
@@ -14,7 +15,7 @@ class VoxelGrid {
   VoxelGrid(const AxisAlignedBox& bounds, double resolution_m);
 
   [[nodiscard]] double resolution() const { return resolution_m_; }
-  [[nodiscard]] const Eigen::Vector3i& size() const { return size_; }
+  [[nodiscard]] const Eigen::Vector3i& size() const { return shape_.size; }
   [[nodiscard]] Eigen::Vector3i cellOf(const Eigen::Vector3d& point) const {
     return scaled(point).array().floor().cast<int>();
   }
@@ -24,22 +25,12 @@ class VoxelGrid {
     return (point - corner_) * inverse_resolution_;
   }
 
-  [[nodiscard]] bool contains(const Eigen::Vector3i& cell) const {
-    return (cell.array() >= 0).all() && (cell.array() < size_.array()).all();
-  }
+  [[nodiscard]] bool contains(const Eigen::Vector3i& cell) const { return shape_.contains(cell); }
   /// Only for cells the grid contains.
   [[nodiscard]] std::size_t offsetOf(const Eigen::Vector3i& cell) const {
-    return static_cast<std::size_t>(cell.x()) +
-           static_cast<std::size_t>(size_.x()) *
-               (static_cast<std::size_t>(cell.y()) +
-                static_cast<std::size_t>(size_.y()) * static_cast<std::size_t>(cell.z()));
+    return shape_.offsetOf(cell);
   }
-  [[nodiscard]] Eigen::Vector3i cellAt(std::size_t offset) const {
-    const auto row = static_cast<std::size_t>(size_.x());
-    const auto layer = row * static_cast<std::size_t>(size_.y());
-    return {static_cast<int>(offset % row), static_cast<int>(offset % layer / row),
-            static_cast<int>(offset / layer)};
-  }
+  [[nodiscard]] Eigen::Vector3i cellAt(std::size_t offset) const { return shape_.cellAt(offset); }
   [[nodiscard]] bool isSet(std::size_t offset) const {
     return (words_[offset >> 6] >> (offset & 63) & 1) != 0;
   }
@@ -64,7 +55,7 @@ class VoxelGrid {
   double resolution_m_;
   double inverse_resolution_;
   Eigen::Vector3d corner_;
-  Eigen::Vector3i size_;
+  GridShape shape_;
   std::vector<std::uint64_t> words_;
 };
 

@@ -283,15 +283,7 @@ struct FrontierPlanner::Search {
     result.reason = "no free way home is known: " + answer.reason;
   }
 
-  void finishHome(const Polyline& way) {
-    result.status = PlanStatus::kOk;
-    result.kind = PathKind::kHome;
-    result.path = toPath(way, {root, request.pose.yaw});
-    if ((root - request.pose.position).norm() > 0.0)
-      result.path.insert(result.path.begin(), request.pose);
-    result.path.front() = request.pose;
-    result.reason = "way home, " + std::to_string(std::lround(lengthOf(result.path))) + " m";
-  }
+  void finishHome(const Polyline& way) { result = homeResult(request, root, way, result.stats); }
 };
 
 FrontierPlanner::FrontierPlanner(const FrontierPlannerParams& params, Preference preference,

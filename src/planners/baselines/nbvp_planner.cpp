@@ -224,17 +224,7 @@ struct NbvpPlanner::Search {
   }
 
   void goHome() {
-    const graph::Polyline way = planner.trail_.findWay(space);
-    if (way.empty()) {
-      result.status = PlanStatus::kNoPath;
-      result.reason = "no free way along the trail leads home";
-      return;
-    }
-    result.status = PlanStatus::kOk;
-    result.kind = PathKind::kHome;
-    result.path = pathFrom(request.pose, root.position, way);
-    result.reason =
-        "shortest way home, " + std::to_string(std::lround(lengthOf(result.path))) + " m";
+    result = homeResult(request, root.position, planner.trail_.findWay(space), result.stats);
   }
 
   [[nodiscard]] GraphLayer treeLayer() const {

@@ -181,16 +181,7 @@ struct OraclePlanner::Search {
   }
 
   void goHome() {
-    const Polyline way = planner.trail_.findWay(space.free());
-    if (way.empty()) {
-      result.status = PlanStatus::kNoPath;
-      result.reason = "no free way along the trail leads home";
-      return;
-    }
-    result.status = PlanStatus::kOk;
-    result.kind = PathKind::kHome;
-    result.path = pathFrom(request.pose, root, way);
-    result.reason = "way home, " + std::to_string(std::lround(lengthOf(result.path))) + " m";
+    result = homeResult(request, root, planner.trail_.findWay(space.free()), result.stats);
   }
 };
 

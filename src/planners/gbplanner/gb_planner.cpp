@@ -181,11 +181,7 @@ struct GbPlanner::Search {
     }
     const GbPlannerParams& params = planner.params_;
     way = shortened(way, view.space(), params.shortcut_length_max_m);
-    result.status = PlanStatus::kOk;
-    result.kind = PathKind::kHome;
-    result.path = pathFrom(request.pose, root, way);
-    result.reason =
-        "shortest way home, " + std::to_string(std::lround(lengthOf(result.path))) + " m";
+    result = homeResult(request, root, way, result.stats);
   }
 
   /// `way` from the root on; a path from a merged vertex begins up to its radius beside it.

@@ -256,12 +256,7 @@ struct InformedPlanner::Search {
     return {};
   }
 
-  void finishHome(const Polyline& way) {
-    result.status = PlanStatus::kOk;
-    result.kind = PathKind::kHome;
-    result.path = pathFrom(request.pose, root, way);
-    result.reason = "way home, " + std::to_string(std::lround(lengthOf(result.path))) + " m";
-  }
+  void finishHome(const Polyline& way) { result = homeResult(request, root, way, result.stats); }
 
   void fillStats() {
     const graph::SpatialGraph& graph = planner.growth_.graph().graph();

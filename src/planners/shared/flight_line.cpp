@@ -1,6 +1,7 @@
 #include "spelunk/planners/shared/flight_line.h"
 
 #include <cmath>
+#include <string>
 
 namespace spelunk::planners {
 
@@ -21,6 +22,22 @@ Path pathFrom(const Pose& pose, const Eigen::Vector3d& root, const graph::Polyli
   if (root != pose.position) path.insert(path.begin(), pose);
   path.front() = pose;
   return path;
+}
+
+PlanResult homeResult(const PlanRequest& request, const Eigen::Vector3d& root,
+                      const graph::Polyline& way, const PlanStats& stats) {
+  PlanResult result;
+  result.kind = PathKind::kHome;
+  result.stats = stats;
+  if (way.empty()) {
+    result.status = PlanStatus::kNoPath;
+    result.reason = "no free way along the trail leads home";
+    return result;
+  }
+  result.status = PlanStatus::kOk;
+  result.path = pathFrom(request.pose, root, way);
+  result.reason = "way home, " + std::to_string(std::lround(lengthOf(result.path))) + " m";
+  return result;
 }
 
 graph::Polyline toLine(const Path& path) {

@@ -2,6 +2,7 @@
 
 #include "spelunk/common/path.h"
 #include "spelunk/graph/path_similarity.h"
+#include "spelunk/planners/exploration_planner.h"
 
 namespace spelunk::planners {
 
@@ -12,6 +13,10 @@ namespace spelunk::planners {
 /// `root` is elsewhere.
 [[nodiscard]] Path pathFrom(const Pose& pose, const Eigen::Vector3d& root,
                             const graph::Polyline& line);
+
+/// The result of planHome() for a way home that begins at `root`: kOk, or kNoPath if it is empty.
+[[nodiscard]] PlanResult homeResult(const PlanRequest& request, const Eigen::Vector3d& root,
+                                    const graph::Polyline& way, const PlanStats& stats);
 
 /// The positions of a path.
 [[nodiscard]] graph::Polyline toLine(const Path& path);
