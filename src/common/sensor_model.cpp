@@ -30,6 +30,14 @@ Eigen::Vector3f pixelRay(const SensorModel& sensor, int row, int column) {
 
 }  // namespace
 
+bool ScanThinning::takes(double stamp_s) {
+  constexpr double kRounding_s = 1e-6;  // of stamps
+  const bool is_early =
+      last_s_ && stamp_s >= *last_s_ && stamp_s < *last_s_ + period_s_ - kRounding_s;
+  if (!is_early) last_s_ = stamp_s;
+  return !is_early;
+}
+
 SensorKind kindOf(const SensorModel& sensor) {
   return sensor.kind == "depth_camera" ? SensorKind::kDepthCamera : SensorKind::kLidar;
 }

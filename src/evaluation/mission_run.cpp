@@ -30,6 +30,7 @@ struct MissionRun::Impl {
         scans(setup.delays.scan_s),
         outcomes(setup.delays.plan_s),
         losses(Rng(setup.seed).fork("run/lost scans")) {
+    simulator.castOnlyMappedScans();
     record.min_clearance_m = kClearanceLimit_m;
     last_position = simulator.trueState().pose.position;
   }

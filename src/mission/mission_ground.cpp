@@ -7,10 +7,9 @@ namespace spelunk::mission {
 namespace {
 
 constexpr double kCheckPeriod_s = 0.25;
-constexpr double kGroundScanPeriod_s = 0.15;  // of one sensor: more show the same ground again
-constexpr double kLookAhead_m = 2.0;          // beyond the way to a standstill
-constexpr double kStopBefore_m = 0.6;         // bad ground, front of the footprint
-constexpr double kUnseenBefore_m = 0.2;       // ground that should have been seen by now
+constexpr double kLookAhead_m = 2.0;     // beyond the way to a standstill
+constexpr double kStopBefore_m = 0.6;    // bad ground, front of the footprint
+constexpr double kUnseenBefore_m = 0.2;  // ground that should have been seen by now
 constexpr double kStartRadius_m = 3.0;
 constexpr double kSampling_s = 0.2;  // of the motion ahead
 constexpr double kBackOff_m = 0.5;   // Dang 2020, section 4.3
@@ -56,12 +55,6 @@ NoGoZone zoneBeside(const terrain::PathGroundCheck& bad, const Eigen::Vector3d& 
 
 void Mission::Impl::noteGround(const Scan& scan) {
   if (!terrain || !input.latest()) return;
-  if (!scan.sensor.empty()) {
-    const auto last = ground_scans.find(scan.sensor);
-    if (last != ground_scans.end() && std::fabs(scan.stamp_s - last->second) < kGroundScanPeriod_s)
-      return;
-    ground_scans[scan.sensor] = scan.stamp_s;
-  }
   static_cast<void>(terrain->insert(scan, T_world_base));
 }
 

@@ -53,7 +53,7 @@ struct GoToTask {
   /// included.
   navigation::NavigationAnswer plan;
   std::optional<navigation::PathMonitor> monitor;
-  double taken_up_m = 0.0;       ///< The plan's length up to which it was checked and flown.
+  double taken_up_m = 0.0;  ///< The plan's length up to which it was checked and flown.
   ReplanCause cause = ReplanCause::kNone;
   std::vector<NoGoZone> unseen;  ///< Places on earlier plans that did not come into view.
   Eigen::Vector3d replanned_at = Eigen::Vector3d::Zero();
@@ -83,6 +83,7 @@ struct Mission::Impl {
   void takeOdometry(const RobotState& state);
   void watchForFall(const RobotState& base);
   map::MapUpdate takeScan(const Scan& scan);
+  ScanThinning& thinningOf(const std::string& sensor);
   [[nodiscard]] std::optional<std::string> faultOf(const Scan& scan) const;
   void takeRemaining(double remaining);
   Answer start();
@@ -246,8 +247,8 @@ struct Mission::Impl {
   std::deque<map::ConfigurationSpace> spaces;  ///< One a box that was asked for.
   Eigen::Isometry3d T_world_base = Eigen::Isometry3d::Identity();  ///< Newest, of the base itself.
   double next_ground_check_s = 0.0;
-  std::map<std::string, double> ground_scans;   ///< Stamp of the newest one in the terrain map.
-  std::optional<Eigen::Vector3d> unseen_place;  ///< The robot has stood before it to look.
+  std::map<std::string, ScanThinning> thinnings;  ///< By sensor.
+  std::optional<Eigen::Vector3d> unseen_place;    ///< The robot has stood before it to look.
   double next_retime_s = 0.0;
   bool backs_off = false;
   std::optional<double> tilted_since_s;  ///< A robot with legs lies on its side since then.

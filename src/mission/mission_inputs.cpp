@@ -64,18 +64,27 @@ std::optional<std::string> Mission::Impl::faultOf(const Scan& scan) const {
   return std::nullopt;
 }
 
+/// Scans of sensors the robot's description does not name are all mapped.
+ScanThinning& Mission::Impl::thinningOf(const std::string& sensor) {
+  double period_s = 0.0;
+  for (const SensorModel& model : robot.sensor_models)
+    if (model.name == sensor) period_s = model.mapping_period_s;
+  return thinnings.try_emplace(sensor, period_s).first->second;
+}
+
 map::MapUpdate Mission::Impl::takeScan(const Scan& scan) {
   if (const auto fault = faultOf(scan)) {
     say(LogLevel::kWarn, "scan", *fault);
     return {};
   }
+  last_scan_s = std::max(now, scan.stamp_s);
+  if (!thinningOf(scan.sensor).takes(scan.stamp_s)) return {};
   const Stopwatch watch;
   const Eigen::Vector3d centre =
       input.latest() ? input.latest()->pose.position : scan.T_world_sensor.translation();
   map::MapUpdate update = map.insert(scan, boxAround(centre, kBodyShare * robot.box_m));
   noteGround(scan);
   status.last_map_update_ms = watch.milliseconds();
-  last_scan_s = std::max(now, scan.stamp_s);
   newest_scan_s = std::max(newest_scan_s, scan.stamp_s);
   ++scans;
   if (update.newly_occupied.empty()) return update;

@@ -36,8 +36,12 @@ double RangeSensor::nextScanTime() const {
   return static_cast<double>(scans_taken_) / model_.rate_hz;
 }
 
-SimulatedScan RangeSensor::scan(const MeshScene& scene, const Eigen::Isometry3d& T_world_base_true,
-                                const Eigen::Isometry3d& T_world_base_odometry, double stamp_s) {
+std::optional<SimulatedScan> RangeSensor::scan(const MeshScene& scene,
+                                               const Eigen::Isometry3d& T_world_base_true,
+                                               const Eigen::Isometry3d& T_world_base_odometry,
+                                               double stamp_s) {
+  ++scans_taken_;
+  if (thinning_ && !thinning_->takes(stamp_s)) return std::nullopt;
   SimulatedScan result;
   result.T_world_sensor_true = T_world_base_true * T_base_sensor_;
   result.directions = directions_;
@@ -51,7 +55,7 @@ SimulatedScan RangeSensor::scan(const MeshScene& scene, const Eigen::Isometry3d&
   result.scan.stamp_s = stamp_s;
   result.scan.sensor = model_.name;
   result.scan.T_world_sensor = T_world_base_odometry * T_base_sensor_;
-  result.scan.points = disturbedPoints(result.true_ranges, hashed(key_, ++scans_taken_));
+  result.scan.points = disturbedPoints(result.true_ranges, hashed(key_, scans_taken_));
   return result;
 }
 

@@ -156,8 +156,9 @@ struct Simulator::Impl {
     const double time_s = timeAfter(steps);
     for (RangeSensor& sensor : sensors) {
       if (sensor.nextScanTime() > time_s + kTimeTolerance) continue;
-      scans.push_back(sensor.scan(scene, toIsometry(vehicle->state()),
-                                  toIsometry(odometry.measurement()), time_s));
+      auto scan = sensor.scan(scene, toIsometry(vehicle->state()),
+                              toIsometry(odometry.measurement()), time_s);
+      if (scan) scans.push_back(std::move(*scan));
     }
   }
 
@@ -182,6 +183,10 @@ Simulator::Simulator(const SimParams& params, const RobotModel& robot, const Wor
   impl_ = std::make_unique<Impl>(params, robot, mesh, start, seed);
 }
 Simulator::~Simulator() = default;
+
+void Simulator::castOnlyMappedScans() {
+  for (RangeSensor& sensor : impl_->sensors) sensor.castOnlyMapped();
+}
 
 void Simulator::follow(Trajectory trajectory) {
   requireFollowable(trajectory);

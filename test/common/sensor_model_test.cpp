@@ -44,5 +44,26 @@ TEST(SensorModel, ImpossibleDescriptionsAreNamed) {
   EXPECT_EQ(sensor.problems().size(), 2u);
 }
 
+TEST(ScanThinning, TakesAllScansWithoutAPeriod) {
+  ScanThinning thinning(0.0);
+  for (const double stamp_s : {1.0, 1.1, 1.2}) EXPECT_TRUE(thinning.takes(stamp_s));
+}
+
+TEST(ScanThinning, CountsFromTheLastScanItTook) {
+  ScanThinning thinning(0.2);
+  std::vector<double> taken;
+  for (const double stamp_s : {0.0, 0.1, 0.2, 0.35, 0.45, 0.55, 1.0})
+    if (thinning.takes(stamp_s)) taken.push_back(stamp_s);
+  EXPECT_EQ(taken, (std::vector<double>{0.0, 0.2, 0.45, 1.0}));
+}
+
+TEST(ScanThinning, TakesAScanOfAClockThatJumpedBack) {
+  ScanThinning thinning(0.2);
+  EXPECT_TRUE(thinning.takes(100.0));
+  EXPECT_TRUE(thinning.takes(3.0));
+  EXPECT_FALSE(thinning.takes(3.1));
+  EXPECT_TRUE(thinning.takes(3.2));
+}
+
 }  // namespace
 }  // namespace spelunk

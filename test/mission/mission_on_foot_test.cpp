@@ -58,6 +58,25 @@ class MissionOnFoot : public testing::Test {
   double late_s_ = 0.0;
 };
 
+TEST(MappingPeriod, ScansThatFollowTooSoonDoNotEnterTheMap) {
+  RobotModel robot = leggedRobot();
+  robot.sensor_models.front().mapping_period_s = 0.2;
+  Mission mission({}, robot, test::coarseMap(), 1);
+  mission.onOdometry(standing(0.0, 0.0));
+  const auto pointsOf = [&](const std::string& sensor, double stamp_s) {
+    Scan scan;
+    scan.sensor = sensor;
+    scan.stamp_s = stamp_s;
+    scan.points.emplace_back(2.0F, 0.0F, 0.0F);
+    return mission.onScan(scan).points;
+  };
+  const std::string& name = robot.sensor_models.front().name;
+  EXPECT_EQ(pointsOf(name, 0.0), 1);
+  EXPECT_EQ(pointsOf(name, 0.1), 0);
+  EXPECT_EQ(pointsOf("another sensor", 0.1), 1);
+  EXPECT_EQ(pointsOf(name, 0.2), 1);
+}
+
 TEST_F(MissionOnFoot, StopsAndSaysSoAfterAFall) {
   standFor(0.5, 0.0);
   ASSERT_TRUE(mission_.start().accepted) << mission_.status().reason;

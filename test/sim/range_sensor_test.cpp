@@ -25,7 +25,7 @@ Isometry3d at(const Vector3d& position) {
 SimulatedScan scanFrom(const SensorModel& model, double dust, const Isometry3d& T_world_base,
                        const MeshScene& scene, std::uint64_t seed = 1) {
   RangeSensor sensor(model, dust, Rng(seed));
-  return sensor.scan(scene, T_world_base, T_world_base, 0.0);
+  return sensor.scan(scene, T_world_base, T_world_base, 0.0).value();
 }
 
 SensorModel exactLidar() {
@@ -54,7 +54,7 @@ TEST(RangeSensor, ReportsThePoseTheOdometryBelieves) {
   SensorModel model = exactLidar();
   model.mount_m = {0.1, 0.0, 0.2};
   RangeSensor sensor(model, 0.0, Rng(1));
-  const SimulatedScan scan = sensor.scan(scene, at({1, 0, 1}), at({1.5, 0, 1}), 2.5);
+  const SimulatedScan scan = sensor.scan(scene, at({1, 0, 1}), at({1.5, 0, 1}), 2.5).value();
   EXPECT_EQ(scan.scan.stamp_s, 2.5);
   EXPECT_EQ(scan.scan.sensor, "lidar_16");
   EXPECT_TRUE(scan.T_world_sensor_true.translation().isApprox(Vector3d(1.1, 0, 1.2), 1e-12));
@@ -86,8 +86,8 @@ TEST(RangeSensor, NoiseHasTheGivenSpread) {
 TEST(RangeSensor, NoiseDiffersFromScanToScan) {
   const MeshScene scene(test::boxRoom({10, 8, 4}));
   RangeSensor sensor(SensorModel{}, 0.0, Rng(1));
-  const SimulatedScan first = sensor.scan(scene, at({0, 0, 2}), at({0, 0, 2}), 0.0);
-  const SimulatedScan second = sensor.scan(scene, at({0, 0, 2}), at({0, 0, 2}), 0.1);
+  const SimulatedScan first = sensor.scan(scene, at({0, 0, 2}), at({0, 0, 2}), 0.0).value();
+  const SimulatedScan second = sensor.scan(scene, at({0, 0, 2}), at({0, 0, 2}), 0.1).value();
   EXPECT_EQ(first.true_ranges, second.true_ranges);
   EXPECT_NE(first.scan.points[0], second.scan.points[0]);
   EXPECT_NEAR(sensor.nextScanTime(), 0.2, 1e-12);

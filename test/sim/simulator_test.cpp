@@ -208,6 +208,31 @@ TEST(Simulator, ScansFallDueAtTheSensorsRate) {
     EXPECT_NEAR(slow_s[k], static_cast<double>(k) / 3.0, 0.0026);
 }
 
+TEST(Simulator, MappedScansAreTheSameWhetherTheOthersAreCastOrNot) {
+  SimParams params;
+  params.odometry_noise_m = 0.01;
+  params.dust_returns = 0.02;
+  RobotModel robot;
+  SensorModel lidar;
+  lidar.columns = 36;
+  lidar.dropout_probability = 0.1;
+  lidar.mapping_period_s = 0.3;
+  robot.sensor_models = {lidar};
+  Simulator all(params, robot, hall(), kStart, 3);
+  Simulator mapped(params, robot, hall(), kStart, 3);
+  mapped.castOnlyMappedScans();
+  const auto all_scans = all.advanceTo(1.0);
+  const auto mapped_scans = mapped.advanceTo(1.0);
+  ASSERT_EQ(all_scans.size(), 11U);
+  ASSERT_EQ(mapped_scans.size(), 4U);
+  for (std::size_t k = 0; k < mapped_scans.size(); ++k) {
+    EXPECT_EQ(mapped_scans[k].scan.stamp_s, all_scans[3 * k].scan.stamp_s);
+    EXPECT_EQ(mapped_scans[k].scan.points, all_scans[3 * k].scan.points);
+    EXPECT_EQ(mapped_scans[k].scan.T_world_sensor.matrix(),
+              all_scans[3 * k].scan.T_world_sensor.matrix());
+  }
+}
+
 TEST(Simulator, DriftMovesTheRobotNotItsBelief) {
   SimParams params;
   params.odometry_drift = 0.05;

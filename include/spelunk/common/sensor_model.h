@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -22,6 +23,7 @@ struct SensorModel {
   double range_min_m = 0.4;
   double range_max_m = 50.0;
   double rate_hz = 10.0;
+  double mapping_period_s = 0.0;  ///< Scans that follow sooner are not mapped; 0 maps all.
   double range_noise_stddev_m = 0.01;
   double dropout_probability = 0.0;
   bool reports_misses = false;  ///< Else a ray that meets nothing in range gives no point.
@@ -42,6 +44,8 @@ struct SensorModel {
     field("range_min_m", range_min_m, Bounds{0.0, 100.0}, "shorter returns are dropped");
     field("range_max_m", range_max_m, Bounds{0.5, 500.0}, "the sensor sees no farther");
     field("rate_hz", rate_hz, Bounds{0.1, 100.0}, "scans a second");
+    field("mapping_period_s", mapping_period_s, Bounds{0.0, 10.0},
+          "least time between scans that enter the map; 0 takes all");
     field("range_noise_stddev_m", range_noise_stddev_m, Bounds{0.0, 1.0}, "noise of a range");
     field("dropout_probability", dropout_probability, Bounds{0.0, 1.0}, "share of lost returns");
     field("reports_misses", reports_misses, Bounds{},
@@ -57,6 +61,20 @@ struct SensorModel {
 };
 
 [[nodiscard]] SensorKind kindOf(const SensorModel& sensor);
+
+/// Which scans of one sensor enter the map: those at least SensorModel::mapping_period_s after the
+/// last that did, and those of a clock that jumped back.
+class ScanThinning {
+ public:
+  explicit ScanThinning(double mapping_period_s) : period_s_(mapping_period_s) {}
+
+  /// Whether a scan with this stamp is mapped; if so, it is the last one that was.
+  [[nodiscard]] bool takes(double stamp_s);
+
+ private:
+  double period_s_;
+  std::optional<double> last_s_;
+};
 
 /// Base from sensor.
 [[nodiscard]] Eigen::Isometry3d T_base_sensor(const SensorModel& sensor);

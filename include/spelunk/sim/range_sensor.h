@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "spelunk/common/rng.h"
@@ -19,10 +20,14 @@ class RangeSensor {
   /// Time of the next scan, seconds: the n-th lies at n / rate.
   [[nodiscard]] double nextScanTime() const;
 
-  /// Takes the next scan. `T_world_base_true` places the rays, `T_world_base_odometry` is what the
-  /// robot believes.
-  SimulatedScan scan(const MeshScene& scene, const Eigen::Isometry3d& T_world_base_true,
-                     const Eigen::Isometry3d& T_world_base_odometry, double stamp_s);
+  /// From now on scan() casts only those scans that enter a map.
+  void castOnlyMapped() { thinning_.emplace(model_.mapping_period_s); }
+
+  /// Takes the next scan; nothing if it is one that need not be cast. `T_world_base_true` places
+  /// the rays, `T_world_base_odometry` is what the robot believes.
+  std::optional<SimulatedScan> scan(const MeshScene& scene,
+                                    const Eigen::Isometry3d& T_world_base_true,
+                                    const Eigen::Isometry3d& T_world_base_odometry, double stamp_s);
 
  private:
   std::vector<Eigen::Vector3f> disturbedPoints(const std::vector<float>& ranges,
@@ -35,6 +40,7 @@ class RangeSensor {
   std::shared_ptr<const std::vector<Eigen::Vector3f>> directions_;
   std::vector<Eigen::Vector3f> world_directions_;  ///< Scratch.
   std::uint64_t scans_taken_ = 0;
+  std::optional<ScanThinning> thinning_;
 };
 
 }  // namespace spelunk::sim

@@ -136,6 +136,10 @@ class Simulator {
   DriveAnswer drive(const DriveCommand& command);
   [[nodiscard]] int reducedDrives() const;  ///< Drive commands above the limits so far.
 
+  /// From now on only scans that enter a map are cast and returned (SensorModel::mapping_period_s):
+  /// the same ones, bit by bit, as among all of them.
+  void castOnlyMappedScans();
+
   /// Advances by fixed steps up to `time_s`; returns the scans that fell due, in order of time, the
   /// first one at time 0. With an empty battery the rotors stop, the legs go limp.
   std::vector<SimulatedScan> advanceTo(double time_s);
