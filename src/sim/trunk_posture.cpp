@@ -76,9 +76,14 @@ TrunkPosture::TrunkPosture(const WalkerParams& params, const BodyState& start,
       position_(start.position),
       yaw_(yawOf(start)) {}
 
+/// Lower over uneven ground, by what the feet stand off its plane: so the legs keep the reach to
+/// catch the trunk.
 double TrunkPosture::wantedHeight(const BodyState& trunk, const FootPoints& feet) const {
   const double plane = ground_.heightAt(trunk.position.head<2>());
-  double height = plane + stand_height_;
+  double uneven = 0.0;
+  for (const Vector3d& foot : feet)
+    uneven = std::max(uneven, std::abs(foot.z() - ground_.heightAt(foot.head<2>())));
+  double height = plane + stand_height_ - uneven;
   for (std::size_t k = 0; k < kLegs; ++k) {
     const Vector3d root = trunk.orientation * legs_[k].root();
     const double aside = (trunk.position + root - feet[k]).head<2>().norm();
