@@ -219,6 +219,12 @@ void Stepping::search(std::size_t leg, const Motion& motion) {
   (void)aimAt(leg, motion, kSearchSwing_s);
 }
 
+Footing Stepping::footing() const {
+  const auto is_searching = [](const Foot& foot) { return foot.phase == FootPhase::kSearching; };
+  return std::any_of(feet_.begin(), feet_.end(), is_searching) ? Footing::kWanting
+                                                               : Footing::kComplete;
+}
+
 FootPoints Stepping::grounds() const {
   FootPoints points;
   for (std::size_t k = 0; k < kLegs; ++k)

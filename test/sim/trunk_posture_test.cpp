@@ -85,6 +85,18 @@ TEST(TrunkPosture, StandsLowerOnUnevenGroundNotOnASlope) {
   EXPECT_NEAR(liftOn(feetOn(0.2, 0.1)), liftOn(feetOn(0.0, 0.0)), 1.0);
 }
 
+TEST(TrunkPosture, StoopsWhileAFootHasNoPlaceAndRisesAgain) {
+  const FootPoints feet = feetOn(0.0, 0.0);
+  TrunkPosture posture(WalkerParams{}, standing(1.5), feet);
+  const auto liftAfter = [&](int steps, Footing footing) {
+    for (int k = 0; k < steps; ++k) posture.advance(0.01, standing(1.5), {}, feet, footing);
+    return posture.wrench(standing(1.5)).force_n.z();
+  };
+  const double weight = WalkerParams{}.trunk_mass_kg * kGravity;
+  EXPECT_LT(liftAfter(50, Footing::kWanting), weight - 100.0);
+  EXPECT_NEAR(liftAfter(200, Footing::kComplete), weight, 1.0);
+}
+
 TEST(TrunkPosture, FollowsTheGroundWithinALag) {
   TrunkPosture posture(WalkerParams{}, standing(1.5), feetOn(0.0, 0.0));
   posture.advance(0.01, standing(1.5), {}, feetOn(0.3, 0.0));

@@ -88,6 +88,16 @@ TEST_P(AnySpeed, StaysOnItsFeetInRubble) {
   }
 }
 
+TEST_P(AnySpeed, StaysOnItsFeetAstrideABlock) {
+  for (const float start : {1.5F, 1.6F, 1.7F, 1.8F, 1.9F, 2.0F, 2.1F, 2.2F}) {
+    WorldMesh mesh = flatGround();
+    test::addBox(mesh, {start, 0.0F, -0.3F}, {start + 1.2F, 3.0F, 0.23F});  // under the left feet
+    const Walked walked = walkOn(mesh, GetParam(), 7.0);
+    EXPECT_EQ(walked.count.falls, 0) << start;
+    EXPECT_NEAR(walked.end.x(), 7.0, 0.2) << start;
+  }
+}
+
 TEST_P(AnySpeed, ClimbsRampAndStairs) {
   const Walked ramp = walkOn(test::ramp(20.0F, 3.0F), GetParam(), 14.0);
   expectArrival(ramp, 14.0);

@@ -54,6 +54,8 @@ class Stepping {
                                                   const std::vector<Eigen::Vector3d>& forces);
 
   [[nodiscard]] const std::array<Foot, kLegs>& feet() const { return feet_; }
+  /// kWanting while a foot is searching.
+  [[nodiscard]] Footing footing() const;
   [[nodiscard]] int slips() const { return slips_; }
   /// Swinging feet that ran into rock: they are drawn up and look for another place.
   [[nodiscard]] int trips() const { return trips_; }
