@@ -155,11 +155,10 @@ class ConeCount {
     for (std::size_t i = 0; i < count; i += kGathered) {
       const std::size_t cells = std::min(kGathered, count - i);
       const std::uint64_t gathered = gather(start, offsets + i, cells);
-      if (cells == kGathered && gathered == kFreeBits) {
-        gain_.free_voxels += static_cast<int>(kGathered);
-        continue;
-      }
-      for (std::size_t k = i; k < i + cells; ++k)
+      const std::uint64_t not_free = gathered ^ kFreeBits;  // cells beyond the last count as such
+      const std::size_t free = not_free == 0 ? kGathered : __builtin_ctzll(not_free) / 8U;
+      gain_.free_voxels += static_cast<int>(free);
+      for (std::size_t k = i + free; k < i + cells; ++k)
         if (!takeStep(static_cast<Occupancy>((gathered >> (8 * (k - i))) & 3), k)) return false;
     }
     return true;
