@@ -123,11 +123,10 @@ void show(const spelunk::evaluation::Progress& progress) {
 
 void plot(const std::string& share_dir, const std::string& out) {
   const std::string command =
-      "'" + share_dir + "/scripts/plot_mission.py' '" + out + "' >/dev/null 2>&1";
+      "'" + share_dir + "/scripts/plot_mission.py' '" + out + "' >/dev/null";
   if (std::system(command.c_str()) != 0)
-    spelunk::log(
-        spelunk::LogLevel::kWarn,
-        "no exploration.png: scripts/plot_mission.py failed (python3-matplotlib missing?)");
+    spelunk::log(spelunk::LogLevel::kWarn,
+                 "no exploration.png: scripts/plot_mission.py says why (python3-matplotlib draws)");
 }
 
 void sayResult(const spelunk::evaluation::RunRecord& record, double reachable_m3,

@@ -59,6 +59,8 @@ class TemplateRays {
   }
   [[nodiscard]] const std::vector<Ray>& rays() const { return rays_; }
   [[nodiscard]] const std::vector<Step>& steps() const { return steps_; }
+  /// Rays of one azimuth, which follow each other in `rays()`.
+  [[nodiscard]] std::size_t rows() const { return static_cast<std::size_t>(rows_); }
   /// For each step of a ray and for its end: the part of the ray's share of the field of view that
   /// lies nearer, in volumes of a voxel. What differs between two is the volume they hold.
   [[nodiscard]] const std::vector<float>& coneVolumes() const { return cone_volumes_; }

@@ -6,7 +6,8 @@
 #include <mutex>
 #include <optional>
 
-#include "ray_tree.h"
+#include "distinct_count.h"
+#include "ray_layers.h"
 #include "spelunk/common/contract.h"
 #include "template_rays.h"
 #include "voxel_key.h"
@@ -18,7 +19,7 @@ namespace {
 struct CellOffsets {
   VoxelIndex window_size;
   std::vector<std::vector<std::int32_t>> sensors;
-  std::vector<std::vector<std::int32_t>> trees;  ///< By node, where distinct voxels are counted.
+  std::vector<std::vector<std::int32_t>> layers;  ///< Where distinct voxels are counted.
 };
 
 std::vector<std::int32_t> offsetsOf(const std::vector<TemplateRays::Step>& steps,
@@ -54,43 +55,6 @@ TemplateRays::Range knownFrom(const VoxelIndex& start, const LocalWindow& window
   if (!known.contains(VoxelIndex::Zero())) return reachable;
   return {known.first.cwiseMax(reachable.first), known.last.cwiseMin(reachable.last)};
 }
-
-/// The voxels counted in one evaluation, as bits over the window. Kept a thread, wiped by what was
-/// set, so that an evaluation never clears or allocates the whole.
-class SeenCells {
- public:
-  explicit SeenCells(std::size_t cells) {
-    if (words().size() < cells / 64 + 1) words().resize(cells / 64 + 1, 0);
-    words_ = words().data();
-  }
-  ~SeenCells() {
-    for (const std::size_t word : touched_) words_[word] = 0;
-    touched_.clear();
-  }
-  SeenCells(const SeenCells&) = delete;
-  SeenCells& operator=(const SeenCells&) = delete;
-
-  /// 1 if the cell is new, 0 the next time. No branch depends on it: nothing could predict it.
-  std::uint64_t add(std::size_t cell) {
-    std::uint64_t& word = words_[cell / 64];
-    if (word == 0) touched_.push_back(cell / 64);
-    const std::uint64_t is_new = ~(word >> (cell % 64)) & 1;
-    word |= std::uint64_t{1} << (cell % 64);
-    return is_new;
-  }
-
- private:
-  static std::vector<std::uint64_t>& words() {
-    thread_local std::vector<std::uint64_t> words;
-    return words;
-  }
-  static std::vector<std::size_t>& touched() {
-    thread_local std::vector<std::size_t> touched;
-    return touched;
-  }
-  std::uint64_t* words_ = nullptr;
-  std::vector<std::size_t>& touched_ = touched();
-};
 
 /// Counts the free among the lowest `count` of eight cells, none of which is occupied.
 int freeAmong(std::uint64_t cells, int count) {
@@ -155,11 +119,10 @@ class ConeCount {
     for (std::size_t i = 0; i < count; i += kGathered) {
       const std::size_t cells = std::min(kGathered, count - i);
       const std::uint64_t gathered = gather(start, offsets + i, cells);
-      if (cells == kGathered && gathered == kFreeBits) {
-        gain_.free_voxels += static_cast<int>(kGathered);
-        continue;
-      }
-      for (std::size_t k = i; k < i + cells; ++k)
+      const std::uint64_t not_free = gathered ^ kFreeBits;  // cells beyond the last count as such
+      const std::size_t free = not_free == 0 ? kGathered : __builtin_ctzll(not_free) / 8U;
+      gain_.free_voxels += static_cast<int>(free);
+      for (std::size_t k = i + free; k < i + cells; ++k)
         if (!takeStep(static_cast<Occupancy>((gathered >> (8 * (k - i))) & 3), k)) return false;
     }
     return true;
@@ -194,49 +157,6 @@ class ConeCount {
   float limit_ = std::numeric_limits<float>::infinity();  ///< Once unknown space is entered.
 };
 
-void countRayOnce(const std::uint8_t* window, std::size_t start, const std::int32_t* offsets,
-                  std::size_t count, SeenCells& seen, VolumetricGain& gain) {
-  for (std::size_t i = 0; i < count; ++i) {
-    const std::size_t at = start + static_cast<std::size_t>(static_cast<std::int64_t>(offsets[i]));
-    const auto status = static_cast<Occupancy>(window[at]);
-    if (seen.add(at) != 0) {
-      gain.unknown_voxels += status == Occupancy::kUnknown ? 1 : 0;
-      gain.occupied_voxels += status == Occupancy::kOccupied ? 1 : 0;
-      gain.free_voxels += status == Occupancy::kFree ? 1 : 0;
-    }
-    if (status == Occupancy::kOccupied) return;
-  }
-}
-
-/// The same for all rays of a tree at once; nodes outside `reachable` end their rays.
-void countTreeOnce(const RayTree& tree, const std::vector<std::int32_t>& offsets,
-                   const TemplateRays::Range& reachable, const std::uint8_t* cells,
-                   std::size_t start, SeenCells& seen, VolumetricGain& gain) {
-  const bool is_all_reachable =
-      reachable.contains(tree.extent().first) && reachable.contains(tree.extent().last);
-  const std::uint32_t* after = tree.after().data();
-  constexpr int kBitsACount = 21;
-  std::uint64_t counts = 0;  // of all three statuses, side by side in one register
-  for (std::uint32_t i = 0; i < offsets.size();) {
-    const TemplateRays::Step& step = tree.steps()[i];
-    if (!is_all_reachable && !reachable.contains({step[0], step[1], step[2]})) {
-      i = after[i];
-      continue;
-    }
-    const std::size_t at = start + static_cast<std::size_t>(static_cast<std::int64_t>(offsets[i]));
-    const std::uint8_t status = cells[at];
-    counts += seen.add(at) << (kBitsACount * status);
-    i = static_cast<Occupancy>(status) == Occupancy::kOccupied ? after[i] : i + 1;
-  }
-  const auto countOf = [counts](Occupancy status) {
-    constexpr std::uint64_t kOnes = (std::uint64_t{1} << kBitsACount) - 1;
-    return static_cast<int>((counts >> (kBitsACount * static_cast<int>(status))) & kOnes);
-  };
-  gain.unknown_voxels += countOf(Occupancy::kUnknown);
-  gain.free_voxels += countOf(Occupancy::kFree);
-  gain.occupied_voxels += countOf(Occupancy::kOccupied);
-}
-
 }  // namespace
 
 struct GainEvaluator::Impl {
@@ -250,8 +170,8 @@ struct GainEvaluator::Impl {
   GainCounting counting = GainCounting::kDistinct;
   float depth_voxels = std::numeric_limits<float>::infinity();
   std::vector<TemplateRays> sensors;
-  std::vector<std::optional<RayTree>> trees;  ///< Where distinct voxels are counted full circle.
-  std::mutex mutex;                           ///< Guards `last_offsets` only.
+  std::vector<std::optional<RayLayers>> layers;  ///< Where distinct voxels are counted all around.
+  std::mutex mutex;                              ///< Guards `last_offsets` only.
   std::shared_ptr<const CellOffsets> last_offsets;
 };
 
@@ -263,9 +183,9 @@ std::shared_ptr<const CellOffsets> GainEvaluator::Impl::offsetsFor(const VoxelIn
   offsets->window_size = window_size;
   for (const TemplateRays& sensor : sensors)
     offsets->sensors.push_back(offsetsOf(sensor.steps(), window_size));
-  for (const std::optional<RayTree>& tree : trees)
-    offsets->trees.push_back(tree ? offsetsOf(tree->steps(), window_size)
-                                  : std::vector<std::int32_t>{});
+  for (const std::optional<RayLayers>& rays : layers)
+    offsets->layers.push_back(rays ? offsetsOf(rays->steps(), window_size)
+                                   : std::vector<std::int32_t>{});
   last_offsets = std::move(offsets);
   return last_offsets;
 }
@@ -281,9 +201,9 @@ void GainEvaluator::Impl::countSensor(std::size_t sensor, const LocalWindow& win
   const TemplateRays::Heading heading = rays.headingAt(yaw);
   const std::size_t start_cell = window.offsetOf(start - window.origin());
   const std::uint8_t* start_cells = window.cells() + start_cell;
-  if (seen != nullptr && trees[sensor])
-    return countTreeOnce(*trees[sensor], offsets.trees[sensor], reachable, window.cells(),
-                         start_cell, *seen, gain);
+  if (layers[sensor])
+    return countLayersOnce(*layers[sensor], offsets.layers[sensor], reachable, window.cells(),
+                           start_cell, sensors.size() > 1 ? seen : nullptr, gain);
   std::size_t number = heading.first;
   for (std::size_t i = 0; i < heading.count; ++i) {
     const TemplateRays::Ray& ray = rays.rays()[number];
@@ -319,8 +239,8 @@ GainEvaluator::GainEvaluator(const std::vector<SensorModel>& sensors, double res
   for (const SensorModel& sensor : sensors) {
     const TemplateRays& rays = impl_->sensors.emplace_back(sensor, resolution_m);
     const bool is_circle = rays.headingAt(0.0).count == rays.rays().size();
-    impl_->trees.emplace_back();
-    if (counting == GainCounting::kDistinct && is_circle) impl_->trees.back().emplace(rays);
+    impl_->layers.emplace_back();
+    if (counting == GainCounting::kDistinct && is_circle) impl_->layers.back().emplace(rays);
     impl_->reach_m =
         std::max(impl_->reach_m, sensor.gain_range_m + sensor.mount_m.norm() + resolution_m);
   }

@@ -60,7 +60,7 @@ std::optional<Command> Mission::Impl::tick(double now_s) {
 
 void Mission::Impl::updateRemaining() {
   const double flown = started_s ? now - *started_s : 0.0;
-  guard.report(reported_remaining_s.value_or(std::max(0.0, robot.endurance_s - flown)));
+  guard.report(reported_remaining_s.value_or(std::max(0.0, endurance_at_start_s - flown)));
   status.time_s = now;
   status.remaining_s = guard.remaining();
   if (home_graph && now >= next_refresh_s) {

@@ -231,6 +231,7 @@ struct Mission::Impl {
   MissionStatus status;
   double now = 0.0;
   std::optional<double> started_s;
+  double endurance_at_start_s = robot.endurance_s;  ///< Where no battery reports it.
   std::optional<double> last_odometry_s;
   std::optional<double> last_scan_s;  ///< Came in.
   double newest_scan_s = 0.0;         ///< Was taken.

@@ -142,7 +142,9 @@ void Mission::Impl::takeOff() {
     if (terrain) terrain->assumeGroundUnder(T_world_base);
     stamped_trail.push_back({input.latest()->stamp_s, pose});
   }
-  if (!started_s) started_s = now;
+  if (started_s) return;
+  started_s = now;
+  if (isAtHome()) endurance_at_start_s = robot.endurance_s;  // one at home can be recharged
 }
 
 Answer Mission::Impl::start() {
@@ -206,6 +208,8 @@ void Mission::Impl::takeUp(const MissionRecord& record) {
   no_go.insert(no_go.end(), record.marked_zones.begin(), record.marked_zones.end());
   status.zones_marked = static_cast<int>(record.marked_zones.size());
   if (record.trail.empty()) return;
+  endurance_at_start_s = std::min(robot.endurance_s, record.remaining_s);
+  started_s.reset();
   home_graph.emplace(record.trail.front(), robot.box_m, map.params().resolution_m, footingCheck());
   for (const Pose& pose : record.trail) home_graph->addTrail(pose);
   for (const NoGoZone& zone : record.marked_zones) home_graph->noteZone(zone);

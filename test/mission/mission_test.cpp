@@ -258,5 +258,28 @@ TEST_F(CorridorMission, SavesAndTakesUpAgain) {
   EXPECT_LT(distance(later.state().pose, kStart), 1.0);
 }
 
+TEST_F(CorridorMission, EnduranceIsKeptOverSavingAndLoading) {
+  const test::TemporaryFolder folder;
+  ScriptedFlight flight(test::corridorWorld(30.0), kStart, planner_);
+  ASSERT_TRUE(flight.start().accepted);
+  flight.flyFor(8.0);
+  const double left_s = flight.mission().status().remaining_s;
+  ASSERT_LT(left_s, flight.mission().robot().endurance_s - 7.0);
+  ASSERT_TRUE(flight.mission().save(folder.at("m"), {}).accepted);
+
+  ScriptedFlight away(test::corridorWorld(30.0), flight.state().pose, planner_);
+  ASSERT_TRUE(away.mission().load(folder.at("m"), nullptr).accepted);
+  ASSERT_TRUE(away.start().accepted);
+  away.flyFor(1.0);
+  EXPECT_LE(away.mission().status().remaining_s, left_s);
+  EXPECT_GT(away.mission().status().remaining_s, left_s - 3.0);
+
+  ScriptedFlight at_home(test::corridorWorld(30.0), kStart, planner_);
+  ASSERT_TRUE(at_home.mission().load(folder.at("m"), nullptr).accepted);
+  ASSERT_TRUE(at_home.start().accepted);
+  at_home.flyFor(1.0);
+  EXPECT_GT(at_home.mission().status().remaining_s, left_s + 5.0) << "a robot at home can recharge";
+}
+
 }  // namespace
 }  // namespace spelunk::mission
