@@ -71,6 +71,20 @@ bool polygonsMeet(const Polygon& p, const Polygon& q) {
   return false;
 }
 
+/// Whether the bounds of the polygon and of the swept rectangle are apart: most zones are far off.
+bool liesBeside(const Polygon& polygon, const Eigen::Vector2d& a, const Eigen::Vector2d& b,
+                const Eigen::Vector2d& half) {
+  Eigen::Vector2d low = polygon.front();
+  Eigen::Vector2d high = low;
+  for (const Eigen::Vector2d& corner : polygon) {
+    low = low.cwiseMin(corner);
+    high = high.cwiseMax(corner);
+  }
+  const Eigen::Vector2d first = a.cwiseMin(b) - half;
+  const Eigen::Vector2d last = a.cwiseMax(b) + half;
+  return (low.array() > last.array()).any() || (high.array() < first.array()).any();
+}
+
 }  // namespace
 
 AxisAlignedBox intersection(const AxisAlignedBox& a, const AxisAlignedBox& b) {
@@ -97,6 +111,7 @@ bool sweptBoxMeets(const NoGoZone& zone, const Eigen::Vector3d& a, const Eigen::
   if (std::max(a.z(), b.z()) + half_height < zone.z_min) return false;
   if (std::min(a.z(), b.z()) - half_height > zone.z_max) return false;
   const Eigen::Vector2d half = 0.5 * box_size.head<2>();
+  if (liesBeside(zone.polygon, a.head<2>(), b.head<2>(), half)) return false;
   return polygonsMeet(sweptRectangle(a.head<2>(), b.head<2>(), half), zone.polygon);
 }
 

@@ -10,10 +10,14 @@ using Eigen::Isometry3d;
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-constexpr double kCapture_s = 0.12;         ///< A metre a second too fast sets feet so far ahead.
+constexpr double kCapture_s = 0.16;         ///< A metre a second too fast sets feet so far ahead;
+constexpr double kCaptureAtRest_s = 0.12;   ///< less while standing, lest steps rock the trunk.
 constexpr double kLeastSwing = 0.4;         ///< A step begins while so much of its time is left.
 constexpr double kSearchPeriod_s = 0.05;    ///< A foot without a place looks for one so often ...
 constexpr double kSearchSwing_s = 0.15;     ///< ... and needs so long to get there.
+constexpr double kLookPeriod_s = 0.03;      ///< A swinging foot's place is looked at so often ...
+constexpr double kRedirectUntil = 0.6;      ///< ... for so much of its time ...
+constexpr double kRedirect_m = 0.03;        ///< ... and changed if it lies elsewhere by more.
 constexpr double kStoop_m = 0.08;           ///< The trunk lowers so far within a swing.
 constexpr double kRestOff_m = 0.06;         ///< Standing, feet may be so far from their place.
 constexpr double kTuck_m = 0.05;            ///< A foot without a place is drawn up so far.
@@ -34,6 +38,8 @@ struct Stepping::Motion {
     const Vector3d ahead = body.orientation * Vector3d::UnitX();
     heading = ahead.head<2>().normalized();
     velocity = turned({wanted.forward_mps, wanted.sideways_mps});
+    const bool stands = velocity.isZero() && wanted.yaw_rate_radps == 0.0;
+    capture_s = stands ? kCaptureAtRest_s : kCapture_s;
   }
 
   /// From the heading frame to the world.
@@ -51,7 +57,7 @@ struct Stepping::Motion {
     const Vector2d spin = command.yaw_rate_radps * side;
     Vector3d place = trunk.position;
     place.head<2>() += after_s * velocity + later + 0.5 * stance_s * (velocity + spin) +
-                       kCapture_s * (trunk.velocity.head<2>() - velocity);
+                       capture_s * (trunk.velocity.head<2>() - velocity);
     return place;
   }
 
@@ -69,6 +75,7 @@ struct Stepping::Motion {
   Isometry3d T_world_base;
   Vector2d heading;
   Vector2d velocity;  ///< Commanded, world frame.
+  double capture_s;
 };
 
 Stepping::Stepping(const WalkerParams& params, const MeshScene& scene,
@@ -154,14 +161,33 @@ bool Stepping::aimAt(std::size_t leg, const Motion& motion, double duration_s) {
   foot.phase = FootPhase::kSwing;
   foot.curve =
       SwingCurve(foot.position, hold->position, swing_height_, motion.trunk.position.z(), ground_);
+  foot.aim = place;
+  foot.next_look_s = kLookPeriod_s;
   foot.swung_s = 0.0;
   foot.swing_s = duration_s;
   return true;
 }
 
+/// The trunk may move otherwise than it did when the foot left the ground.
+void Stepping::redirect(std::size_t leg, const Motion& motion) {
+  Foot& foot = feet_[leg];
+  if (foot.swung_s > kRedirectUntil * foot.swing_s || foot.swung_s < foot.next_look_s) return;
+  foot.next_look_s = foot.swung_s + kLookPeriod_s;
+  const double left_s = foot.swing_s - foot.swung_s;
+  const Vector3d place = motion.placeFor(legs_[leg], left_s, gait_.stanceTime());
+  if ((place - foot.aim).head<2>().norm() < kRedirect_m) return;
+  foot.aim = place;
+  const auto hold = ground_.find(legs_[leg], motion.poseAfter(left_s), place);
+  if (!hold) return;
+  foot.hold = *hold;
+  foot.curve.redirect(foot.swung_s / foot.swing_s, hold->position, motion.trunk.position.z(),
+                      ground_);
+}
+
 void Stepping::swing(std::size_t leg, const Motion& motion) {
   Foot& foot = feet_[leg];
   foot.swung_s += motion.step_s;
+  redirect(leg, motion);
   const Vector3d next = foot.curve.at(std::min(1.0, foot.swung_s / foot.swing_s));
   if (foot.curve.crosses(foot.swung_s / foot.swing_s) &&
       ground_.isRockBetween(foot.position, next)) {
@@ -191,6 +217,12 @@ void Stepping::search(std::size_t leg, const Motion& motion) {
   if (foot.swung_s < kSearchPeriod_s) return;
   foot.swung_s = 0.0;
   (void)aimAt(leg, motion, kSearchSwing_s);
+}
+
+Footing Stepping::footing() const {
+  const auto is_searching = [](const Foot& foot) { return foot.phase == FootPhase::kSearching; };
+  return std::any_of(feet_.begin(), feet_.end(), is_searching) ? Footing::kWanting
+                                                               : Footing::kComplete;
 }
 
 FootPoints Stepping::grounds() const {

@@ -19,6 +19,9 @@ constexpr double kSlopeMax = 0.7;        ///< Steeper ground no longer tilts the
 constexpr double kReachShare = 0.97;     ///< Of a leg's length that the trunk's height counts on.
 constexpr double kAnchor_m = 0.05;       ///< The wanted position runs ahead of the trunk so far ...
 constexpr double kAnchorYaw_rad = 0.15;  ///< ... and the wanted heading.
+constexpr double kStoopMax_m = 0.12;     ///< So far the trunk lowers for a foot without a place ...
+constexpr double kStoop_mps = 1.0;       ///< ... so fast ...
+constexpr double kRise_mps = 0.2;        ///< ... and rises again.
 constexpr double kSidewaysMax_mps2 = 3.0;
 constexpr double kLiftMin = 0.3;  ///< Vertical force, shares of the weight.
 constexpr double kLiftMax = 2.0;
@@ -76,9 +79,14 @@ TrunkPosture::TrunkPosture(const WalkerParams& params, const BodyState& start,
       position_(start.position),
       yaw_(yawOf(start)) {}
 
+/// Lower over uneven ground, by what the feet stand off its plane: so the legs keep the reach to
+/// catch the trunk.
 double TrunkPosture::wantedHeight(const BodyState& trunk, const FootPoints& feet) const {
   const double plane = ground_.heightAt(trunk.position.head<2>());
-  double height = plane + stand_height_;
+  double uneven = 0.0;
+  for (const Vector3d& foot : feet)
+    uneven = std::max(uneven, std::abs(foot.z() - ground_.heightAt(foot.head<2>())));
+  double height = plane + stand_height_ - uneven - stoop_;
   for (std::size_t k = 0; k < kLegs; ++k) {
     const Vector3d root = trunk.orientation * legs_[k].root();
     const double aside = (trunk.position + root - feet[k]).head<2>().norm();
@@ -90,7 +98,9 @@ double TrunkPosture::wantedHeight(const BodyState& trunk, const FootPoints& feet
 }
 
 void TrunkPosture::advance(double step_s, const BodyState& trunk, const DriveCommand& command,
-                           const FootPoints& feet) {
+                           const FootPoints& feet, Footing footing) {
+  const double speed = footing == Footing::kWanting ? kStoop_mps : -kRise_mps;
+  stoop_ = std::clamp(stoop_ + step_s * speed, 0.0, kStoopMax_m);
   const GroundPlane seen = planeThrough(feet);
   const double share = std::min(1.0, step_s / kGroundLag);
   ground_.height = ground_.heightAt(seen.origin);

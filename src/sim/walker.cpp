@@ -17,6 +17,8 @@ constexpr double kFallenTilt = 0.5;       ///< Cosine of the tilt that counts as
 constexpr double kFallenTime_s = 0.5;     ///< So long the ground carries the trunk ...
 constexpr double kFallenShare = 0.4;      ///< ... with so much of its weight: it has fallen.
 
+constexpr double kWantingSpeed = 0.3;  ///< Share, while a foot has no place.
+
 /// Beyond either the balance is lost and the legs let go, as a real controller's do before a crash.
 constexpr double kLostTilt = 0.75;        ///< Cosine of the tilt: 41 degrees.
 constexpr double kLostSinking_mps = 1.0;  ///< Downward.
@@ -32,6 +34,11 @@ BodyState atRest(const Stance& stance) {
   state.position = stance.position;
   state.orientation = stance.orientation;
   return state;
+}
+
+DriveCommand slowed(const DriveCommand& command) {
+  return {kWantingSpeed * command.forward_mps, kWantingSpeed * command.sideways_mps,
+          kWantingSpeed * command.yaw_rate_radps};
 }
 
 WalkerParams checked(const WalkerParams& params) {
@@ -74,9 +81,11 @@ void Walker::step(double step_s, double time_s, const BodyState& estimate,
 void Walker::control(double step_s, double time_s, const BodyState& estimate,
                      MotionReference& reference) {
   const BodyState trunk = body_.state();
-  const DriveCommand command = tracker_.advance(step_s, time_s, estimate, reference);
+  DriveCommand command = tracker_.advance(step_s, time_s, estimate, reference);
+  const Footing footing = stepping_.footing();
+  if (footing == Footing::kWanting) command = slowed(command);
   stepping_.advance(step_s, trunk, command);
-  posture_.advance(step_s, trunk, command, stepping_.grounds());
+  posture_.advance(step_s, trunk, command, stepping_.grounds(), footing);
   std::vector<FootContact> contacts = stepping_.contacts(trunk);
   for (FootContact& contact : contacts) contact.normal = posture_.ground().normal();
   const std::vector<Vector3d> wanted = distributeForces(posture_.wrench(trunk), contacts,

@@ -70,6 +70,33 @@ TEST(TrunkPosture, LowersItselfForALowFoot) {
   EXPECT_LT(posture.wrench(standing(1.5)).force_n.z(), 0.8 * params.trunk_mass_kg * kGravity);
 }
 
+double liftOn(const FootPoints& feet) {
+  TrunkPosture posture(WalkerParams{}, standing(1.5), feet);
+  for (int k = 0; k < 100; ++k) posture.advance(0.01, standing(1.5), {}, feet);
+  return posture.wrench(standing(1.5)).force_n.z();
+}
+
+TEST(TrunkPosture, StandsLowerOnUnevenGroundNotOnASlope) {
+  FootPoints across = feetOn(0.0, 0.0);  // two feet on blocks, one diagonal
+  across[0].z() += 0.06;
+  across[3].z() += 0.06;
+  for (Vector3d& foot : across) foot.z() -= 0.03;  // the same plane as on the flat
+  EXPECT_LT(liftOn(across), liftOn(feetOn(0.0, 0.0)) - 20.0);
+  EXPECT_NEAR(liftOn(feetOn(0.2, 0.1)), liftOn(feetOn(0.0, 0.0)), 1.0);
+}
+
+TEST(TrunkPosture, StoopsWhileAFootHasNoPlaceAndRisesAgain) {
+  const FootPoints feet = feetOn(0.0, 0.0);
+  TrunkPosture posture(WalkerParams{}, standing(1.5), feet);
+  const auto liftAfter = [&](int steps, Footing footing) {
+    for (int k = 0; k < steps; ++k) posture.advance(0.01, standing(1.5), {}, feet, footing);
+    return posture.wrench(standing(1.5)).force_n.z();
+  };
+  const double weight = WalkerParams{}.trunk_mass_kg * kGravity;
+  EXPECT_LT(liftAfter(50, Footing::kWanting), weight - 100.0);
+  EXPECT_NEAR(liftAfter(200, Footing::kComplete), weight, 1.0);
+}
+
 TEST(TrunkPosture, FollowsTheGroundWithinALag) {
   TrunkPosture posture(WalkerParams{}, standing(1.5), feetOn(0.0, 0.0));
   posture.advance(0.01, standing(1.5), {}, feetOn(0.3, 0.0));

@@ -78,6 +78,26 @@ TEST_P(AnySpeed, WalksSixtyMetresOfRoughGround) {
   EXPECT_GT(walked.highest_z - walked.lowest_z, 0.1) << "the ground was not rough";
 }
 
+TEST_P(AnySpeed, StaysOnItsFeetInRubble) {
+  for (const std::uint64_t seed : {1, 2, 3, 4, 5, 6}) {
+    const WorldMesh rubble = test::rubble(0.2, seed);
+    Simulator sim({}, test::walkerModel(GetParam()), rubble, kStart, 1);
+    const Walked walked = test::walk(sim, {{0, 0}, {8, 3}, {16, -3}, {24, 3}}, GetParam());
+    EXPECT_EQ(walked.count.falls, 0) << "seed " << seed << " at " << walked.end.transpose();
+    EXPECT_NEAR((walked.end.head<2>() - Vector2d(24, 3)).norm(), 0.0, 0.2) << "seed " << seed;
+  }
+}
+
+TEST_P(AnySpeed, StaysOnItsFeetAstrideABlock) {
+  for (const float start : {1.5F, 1.6F, 1.7F, 1.8F, 1.9F, 2.0F, 2.1F, 2.2F}) {
+    WorldMesh mesh = flatGround();
+    test::addBox(mesh, {start, 0.0F, -0.3F}, {start + 1.2F, 3.0F, 0.23F});  // under the left feet
+    const Walked walked = walkOn(mesh, GetParam(), 7.0);
+    EXPECT_EQ(walked.count.falls, 0) << start;
+    EXPECT_NEAR(walked.end.x(), 7.0, 0.2) << start;
+  }
+}
+
 TEST_P(AnySpeed, ClimbsRampAndStairs) {
   const Walked ramp = walkOn(test::ramp(20.0F, 3.0F), GetParam(), 14.0);
   expectArrival(ramp, 14.0);

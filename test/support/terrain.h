@@ -3,10 +3,13 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <vector>
 
+#include "spelunk/common/rng.h"
 #include "spelunk/sim/rock_noise.h"
 #include "spelunk/sim/world_mesh.h"
+#include "support/meshes.h"
 
 namespace spelunk::test {
 
@@ -68,6 +71,22 @@ inline sim::WorldMesh trench(float depth_m, float width_m) {
                   {3 + width_m, 0},
                   {12 + width_m, 0}},
                  8.0F);
+}
+
+/// Flat ground strewn with blocks of up to `height_m`, one a square metre, from x = 1 to 32.
+inline sim::WorldMesh rubble(double height_m, std::uint64_t seed) {
+  sim::WorldMesh mesh = profile({{-5, 0}, {38, 0}}, 18.0F);
+  mesh.name = "rubble";
+  Rng rng = Rng(seed).fork("test/rubble");
+  for (int k = 0; k < 450; ++k) {
+    const Eigen::Vector2d middle(rng.uniform(1.0, 32.0), rng.uniform(-7.0, 7.0));
+    const Eigen::Vector2d half(rng.uniform(0.12, 0.3), rng.uniform(0.12, 0.3));
+    const Eigen::Vector2f min = (middle - half).cast<float>();
+    const Eigen::Vector2f max = (middle + half).cast<float>();
+    const auto top = static_cast<float>(rng.uniform(0.05, height_m));
+    addBox(mesh, {min.x(), min.y(), -0.3F}, {max.x(), max.y(), top});
+  }
+  return mesh;
 }
 
 /// Ground with bumps and hollows, `height_m` from the lowest to the highest, of 0.6 m and up; flat

@@ -23,6 +23,8 @@ struct Foot {
   Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< World frame.
   Foothold hold;                                       ///< Where it stands or is about to.
   SwingCurve curve;
+  Eigen::Vector3d aim = Eigen::Vector3d::Zero();  ///< Swinging: the place `hold` was found for.
+  double next_look_s = 0.0;                       ///< Swinging: swung_s at which to look again.
   double swung_s = 0.0;
   double swing_s = 0.0;
   Eigen::Vector3d hang = Eigen::Vector3d::Zero();  ///< Searching: base frame.
@@ -52,6 +54,8 @@ class Stepping {
                                                   const std::vector<Eigen::Vector3d>& forces);
 
   [[nodiscard]] const std::array<Foot, kLegs>& feet() const { return feet_; }
+  /// kWanting while a foot is searching.
+  [[nodiscard]] Footing footing() const;
   [[nodiscard]] int slips() const { return slips_; }
   /// Swinging feet that ran into rock: they are drawn up and look for another place.
   [[nodiscard]] int trips() const { return trips_; }
@@ -60,6 +64,7 @@ class Stepping {
   struct Motion;
   void stand(std::size_t leg, const Motion& motion, bool wants_to_step);
   void swing(std::size_t leg, const Motion& motion);
+  void redirect(std::size_t leg, const Motion& motion);
   void search(std::size_t leg, const Motion& motion);
   void giveUp(std::size_t leg);
   [[nodiscard]] bool aimAt(std::size_t leg, const Motion& motion, double duration_s);

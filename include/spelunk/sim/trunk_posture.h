@@ -31,15 +31,18 @@ struct GroundPlane {
 /// World from base with z along `normal` and x as near to the heading as that allows.
 [[nodiscard]] Eigen::Quaterniond orientationOn(const Eigen::Vector3d& normal, double yaw);
 
+/// kWanting: a foot has no place to stand.
+enum class Footing { kComplete, kWanting };
+
 /// How the trunk is held: at a height above the plane of the feet, along it, moving as commanded.
 class TrunkPosture {
  public:
   TrunkPosture(const WalkerParams& params, const BodyState& start, const FootPoints& feet);
 
   /// Moves the wanted posture on by `step_s` at `command`; `feet` are where the feet stand or are
-  /// about to.
+  /// about to. While the footing is wanting the trunk stoops, so that feet reach lower ground.
   void advance(double step_s, const BodyState& trunk, const DriveCommand& command,
-               const FootPoints& feet);
+               const FootPoints& feet, Footing footing = Footing::kComplete);
 
   /// Force and torque that the feet must give: weight, feedback on posture and velocity.
   [[nodiscard]] TrunkWrench wrench(const BodyState& trunk) const;
@@ -55,6 +58,7 @@ class TrunkPosture {
   double lowest_height_;
   std::array<Leg, kLegs> legs_;
   GroundPlane ground_;
+  double stoop_ = 0.0;  ///< Below its usual height, metres.
   Eigen::Vector3d position_;
   Eigen::Vector3d velocity_ = Eigen::Vector3d::Zero();
   double yaw_;
