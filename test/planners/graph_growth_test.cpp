@@ -105,6 +105,28 @@ TEST_F(FlownCorridor, LeadsABlockedWayAnotherWayOrNone) {
   EXPECT_TRUE(growth_.freeWay(end, ReachabilityGraph::home(), space).empty());
 }
 
+TEST_F(FlownCorridor, IsJoinedToHomeAgainOnceAWayIsFree) {
+  grow();
+  flyTo(4.0, 10.0);
+  const VertexId end = grow();
+  world_.request.zones.push_back({"wall", {{7.0, 0.0}, {7.5, 0.0}, {7.5, 5.0}, {7.0, 5.0}}});
+  growth_.forgetChecksNear({7.0, 2.5, 2.5}, 20.0);
+  {
+    KnownSpace space(world_.request, world_.robot, navigator_, boxes_);
+    ASSERT_TRUE(growth_.freeWay(end, ReachabilityGraph::home(), space).empty());
+    growth_.rejoinHome(end, space);
+    EXPECT_FALSE(graph().cheapestPath(end, ReachabilityGraph::home()).isFound())
+        << "the wall still stands";
+  }
+  world_.request.zones.clear();
+  KnownSpace space(world_.request, world_.robot, navigator_, boxes_);
+  growth_.rejoinHome(end, space);
+  const graph::Polyline way = growth_.freeWay(end, ReachabilityGraph::home(), space);
+  ASSERT_FALSE(way.empty());
+  EXPECT_TRUE(space.isFree(way));
+  EXPECT_LT(graph::lengthOf(way), 12.0);
+}
+
 TEST_F(FlownCorridor, TakesUpASavedGraph) {
   grow();
   flyTo(4.0, 10.0);

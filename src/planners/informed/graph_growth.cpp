@@ -117,6 +117,22 @@ Polyline GraphGrowth::freeWay(VertexId from, VertexId to, KnownSpace& space) {
   }
 }
 
+void GraphGrowth::rejoinHome(VertexId here, KnownSpace& space) {
+  const VertexId home = ReachabilityGraph::home();
+  if (graph_.cheapestPath(here, home).isFound()) return;
+  const Eigen::Vector3d& place = graph_.graph().position(here);
+  for (const VertexId other : graph_.graph().findWithin(place, 2.0 * params_.range_m)) {
+    const Eigen::Vector3d& beside = graph_.graph().position(other);
+    if (!graph_.cheapestPath(other, home).isFound() || !space.free().isFree(place, beside))
+      continue;
+    return graph_.insertEdge(here, other, {place, beside});
+  }
+  const auto answer = space.navigate(place, graph_.graph().position(home), "rejoin home",
+                                     navigation::TreeDetail::kLeaveOut);
+  if (answer.status == navigation::NavigationStatus::kOk)
+    graph_.insertEdge(here, home, toLine(answer.path));
+}
+
 void GraphGrowth::forgetChecksNear(const Eigen::Vector3d& place, double radius_m) {
   for (auto edge = checked_.begin(); edge != checked_.end();) {
     const bool joined = graph_.graph().hasEdge(edge->first, edge->second);

@@ -88,6 +88,7 @@ struct InformedPlanner::Search {
       planner.checked_zones_ = request.zones.size();
     }
     current = planner.growth_.grow(request, root, survey, space);
+    planner.growth_.rejoinHome(current, space);
   }
 
   /// While what the path leads to is still to be seen, it is flown on.

@@ -31,6 +31,11 @@ class GraphGrowth {
   [[nodiscard]] graph::Polyline freeWay(graph::VertexId from, graph::VertexId to,
                                         KnownSpace& space);
 
+  /// Edges that were not free any more may have cut `here` off from home: it is joined again to the
+  /// nearest vertex in straight reach that is not cut off, else to home by navigation. Nothing
+  /// happens where neither works or nothing was cut.
+  void rejoinHome(graph::VertexId here, KnownSpace& space);
+
   /// Ways that come within `radius_m` of a place are checked again before they are used.
   void forgetChecksNear(const Eigen::Vector3d& place, double radius_m);
 
