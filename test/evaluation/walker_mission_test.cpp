@@ -12,6 +12,9 @@
 namespace spelunk::evaluation {
 namespace {
 
+constexpr std::uint64_t kSeed =
+    2;  // its way leads over the pit; without a look at it the robot falls
+
 enum class Ground { kVerified, kTakenOnTrust };
 
 struct Walk {
@@ -62,7 +65,7 @@ Eigen::Vector2d centreOf(const NoGoZone& zone) {
 }
 
 TEST(WalkerMission, PassesAPitAndABlockAndComesHome) {
-  const Walk walk = walkPitRoom(Ground::kVerified, 1);
+  const Walk walk = walkPitRoom(Ground::kVerified, kSeed);
   EXPECT_EQ(walk.record.falls, 0) << walk.record.outcome;
   EXPECT_TRUE(walk.record.returned_home) << walk.record.outcome;
   EXPECT_GT(walk.record.remaining_at_home_s, 0.0);
@@ -88,7 +91,7 @@ TEST(WalkerMission, StaysOnItsFeetWhenPlansAndScansAreLateOrLost) {
 }
 
 TEST(WalkerMission, FallsWhereTheGroundIsTakenOnTrust) {
-  const Walk walk = walkPitRoom(Ground::kTakenOnTrust, 1);
+  const Walk walk = walkPitRoom(Ground::kTakenOnTrust, kSeed);
   EXPECT_EQ(walk.record.falls, 1) << walk.record.outcome;
   EXPECT_FALSE(walk.record.returned_home);
 }
