@@ -203,7 +203,7 @@ void GainEvaluator::Impl::countSensor(std::size_t sensor, const LocalWindow& win
   const std::uint8_t* start_cells = window.cells() + start_cell;
   if (layers[sensor])
     return countLayersOnce(*layers[sensor], offsets.layers[sensor], reachable, window.cells(),
-                           start_cell, sensors.size() > 1 ? seen : nullptr, gain);
+                           start_cell, seen, gain);
   std::size_t number = heading.first;
   for (std::size_t i = 0; i < heading.count; ++i) {
     const TemplateRays::Ray& ray = rays.rays()[number];
@@ -255,13 +255,15 @@ VolumetricGain GainEvaluator::evaluate(const LocalWindow& window, const Eigen::V
           "GainEvaluator: window of another resolution");
   VolumetricGain gain;
   const auto offsets = impl_->offsetsFor(window.size());
-  const bool is_distinct = impl_->counting == GainCounting::kDistinct;
-  SeenCells seen(is_distinct ? window.cellCount() : 0);
+  const bool is_only_layers = impl_->sensors.size() == 1 && impl_->layers.front();
+  // The layers of one sensor hold each voxel once: nothing needs to be remembered.
+  const bool remembers = impl_->counting == GainCounting::kDistinct && !is_only_layers;
+  SeenCells seen(remembers ? window.cellCount() : 0);
   const Eigen::AngleAxisd R_world_base(yaw, Eigen::Vector3d::UnitZ());
   for (std::size_t i = 0; i < impl_->sensors.size(); ++i) {
     const Eigen::Vector3d origin = position + R_world_base * impl_->sensors[i].mount();
     impl_->countSensor(i, window, window.indexOf(origin), yaw, bounds, *offsets,
-                       is_distinct ? &seen : nullptr, gain);
+                       remembers ? &seen : nullptr, gain);
   }
   if (impl_->counting != GainCounting::kCone) gain.unknown_m3 = gain.unknown_voxels;
   gain.unknown_m3 *= std::pow(impl_->resolution_m, 3);

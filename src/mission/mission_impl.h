@@ -69,11 +69,11 @@ struct WayHome {
   bool follows_active = false;  ///< Begins with the rest of the active path.
 };
 
+constexpr double kBodyShare = 0.5;  // of the safety box: returns from there are the robot itself
+
 /// State and steps of the mission. Steps that belong together share a .cpp:
 /// mission_inputs, mission_goto, mission_goto_plans, mission_cycle, mission_ground, mission_plans,
 /// mission_home, mission_way_home.
-constexpr double kBodyShare = 0.5;  // of the safety box: returns from there are the robot itself
-
 struct Mission::Impl {
   Impl(const MissionParams& mission_params, const RobotModel& robot_model,
        const map::MapParams& map_params, std::uint64_t seed,

@@ -142,7 +142,7 @@ class BadInput(unittest.TestCase):
         self.assertGreaterEqual(self.status.latest().explored_volume_m3, before)
 
     def test_e_a_jump_of_metres_is_said(self):
-        """The mission starts among the jumps: in a room this small it would end before the first."""
+        """The mission starts among the jumps; in so small a room it ends before later ones."""
         since_status, since_log = self.status.count(), self.log.count()
         hops = 0
 
