@@ -7,6 +7,8 @@
 namespace spelunk::evaluation {
 namespace {
 
+constexpr double kCountedPeriod_s = 0.2;  // of the scans of one sensor
+
 /// One axis of a voxel walk (Amanatides and Woo, A Fast Voxel Traversal Algorithm for Ray Tracing,
 /// Eurographics 1987); lengths in voxels.
 struct Axis {
@@ -36,6 +38,10 @@ ExploredVolume::ExploredVolume(const AxisAlignedBox& bounds, double resolution_m
 double ExploredVolume::volume_m3() const {
   const double edge = seen_.resolution();
   return static_cast<double>(voxels_) * edge * edge * edge;
+}
+
+bool ExploredVolume::takes(const Scan& scan) {
+  return thinnings_.try_emplace(scan.sensor, kCountedPeriod_s).first->second.takes(scan.stamp_s);
 }
 
 bool ExploredVolume::isFirstToEndIn(const Eigen::Vector3d& end) {
@@ -78,7 +84,7 @@ void ExploredVolume::walk(const Eigen::Vector3d& from, const Eigen::Vector3d& di
 }
 
 void ExploredVolume::add(const sim::SimulatedScan& scan) {
-  if (choice_ == RayChoice::kOneAnEnding && scans_[scan.scan.sensor]++ % 2 == 1) return;
+  if (choice_ == RayChoice::kOneAnEnding && !takes(scan.scan)) return;
   const Eigen::Matrix3d rotation = scan.T_world_sensor_true.linear();
   const Eigen::Vector3d origin = scan.T_world_sensor_true.translation();
   const Eigen::Vector3d from = seen_.scaled(origin);

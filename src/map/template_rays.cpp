@@ -45,7 +45,9 @@ TemplateRays::TemplateRays(const SensorModel& sensor, double resolution_m)
   const bool is_circle = sensor.fov_horizontal_deg >= 360.0;
   const int columns_in_fov = roundedRatio(sensor.fov_horizontal_deg * kDegree, spacing_) + 1;
   columns_ = is_circle ? circle_columns_ : std::min(circle_columns_, columns_in_fov);
-  rows_ = roundedRatio(sensor.fov_vertical_deg, sensor.gain_resolution_deg) + 1;
+  const double row_angle =
+      sensor.gain_row_angle_deg > 0.0 ? sensor.gain_row_angle_deg : sensor.gain_resolution_deg;
+  rows_ = roundedRatio(sensor.fov_vertical_deg, row_angle) + 1;
   if (is_level_)
     addLevelCircle(range_voxels);
   else

@@ -119,13 +119,34 @@ TEST(ExploredVolume, SkippingRaysCountsNeverMoreAndLessByTwoPerCentAtMost) {
   ExploredVolume skipping(mesh.bounds(), kEdge_m, RayChoice::kOneAnEnding);
   for (int i = 0; i < 60; ++i) {
     const Eigen::Vector3d at(0.01 * i, 0.013 * i, 1.0 + 0.002 * i);
-    const auto scan = test::scanFrom(scene, lidar(16, 1800, 50.0), at, 0.01 * i);
+    auto scan = test::scanFrom(scene, lidar(16, 1800, 50.0), at, 0.01 * i);
+    scan.scan.stamp_s = 0.1 * i;
     all.add(scan);
     skipping.add(scan);
   }
   EXPECT_GT(all.volume_m3(), 20.0);
   EXPECT_LE(skipping.volume_m3(), all.volume_m3());
   EXPECT_GT(skipping.volume_m3(), 0.98 * all.volume_m3());
+}
+
+TEST(ExploredVolume, ScansThatFollowLateAreAllCounted) {
+  const sim::WorldMesh mesh = test::boxRoom({9, 7, 3});
+  const sim::MeshScene scene(mesh);
+  const Eigen::Vector3d places[] = {{-3.0, -2.0, 1.0}, {3.0, 2.0, 1.0}, {0.0, 1.0, 2.0}};
+  ExploredVolume all(mesh.bounds(), kEdge_m, RayChoice::kAll);
+  ExploredVolume late(mesh.bounds(), kEdge_m, RayChoice::kOneAnEnding);
+  ExploredVolume early(mesh.bounds(), kEdge_m, RayChoice::kOneAnEnding);
+  double stamp_s = 0.0;
+  for (const Eigen::Vector3d& place : places) {
+    auto scan = test::scanFrom(scene, lidar(16, 90, 50.0), place);
+    all.add(scan);
+    scan.scan.stamp_s = stamp_s += 0.4;
+    late.add(scan);
+    scan.scan.stamp_s = 0.1 * stamp_s;
+    early.add(scan);
+  }
+  EXPECT_GT(late.volume_m3(), 0.99 * all.volume_m3());
+  EXPECT_LT(early.volume_m3(), 0.9 * all.volume_m3());
 }
 
 }  // namespace

@@ -102,6 +102,21 @@ TEST_F(AnOpenPlain, ComesBackFromItsLayer) {
   EXPECT_DOUBLE_EQ(restored.frontiers().front().gain_m3, 33.0);
 }
 
+TEST_F(AnOpenPlain, AFrontierThatPromisesMuchMoreTakesThePlaceOfOneNearBy) {
+  global_.setHome({0, 0, 1});
+  addLine({0, 0, 1}, {10, 0, 1});
+  global_.markFrontier(graph::VertexId{4}, 30.0);
+  global_.markFrontier(graph::VertexId{5}, 50.0);  // 2 m away, not twice as good
+  ASSERT_EQ(global_.frontiers().size(), 1U);
+  EXPECT_DOUBLE_EQ(global_.frontiers().front().gain_m3, 30.0);
+  global_.markFrontier(graph::VertexId{5}, 70.0);
+  ASSERT_EQ(global_.frontiers().size(), 1U);
+  EXPECT_DOUBLE_EQ(global_.frontiers().front().gain_m3, 70.0);
+  global_.frontiers().front().closed_because = "tried";
+  global_.markFrontier(graph::VertexId{4}, 500.0);
+  EXPECT_EQ(global_.frontiers().size(), 1U) << "a closed one is not opened by another name";
+}
+
 class TwoFrontiers : public AnOpenPlain {
  protected:
   TwoFrontiers() {
@@ -115,6 +130,7 @@ class TwoFrontiers : public AnOpenPlain {
     query_.current = GlobalGraph::home();
     query_.remaining_s = 500.0;
     query_.speed_mps = 2.0;
+    query_.frontier_gain_m3 = params_.frontier_gain_m3;
     query_.gain_at = [this](const Eigen::Vector3d& at) { return at.x() > 0.0 ? near_gain_ : 50.0; };
   }
   [[nodiscard]] GlobalPlan plan() {
@@ -128,6 +144,14 @@ class TwoFrontiers : public AnOpenPlain {
   GbPlannerParams params_;
   TriedTargets tried_{3.0};
 };
+
+TEST_F(TwoFrontiers, FrontiersBelowTheGainAskedForWaitForAnotherPass) {
+  query_.frontier_gain_m3 = 45.0;
+  EXPECT_NEAR(plan().target->x(), -30.0, 1e-9) << "the near one promises 40";
+  query_.frontier_gain_m3 = 60.0;
+  EXPECT_TRUE(plan().path.empty());
+  EXPECT_EQ(global_.frontiers().size(), 2U) << "none is forgotten";
+}
 
 TEST_F(TwoFrontiers, PrefersTheNearOne) {
   params_.global_distance_weight = 0.03;

@@ -32,6 +32,7 @@ struct SensorModel {
   double mount_pitch_deg = 0.0;  ///< Positive looks down.
   double gain_range_m = 20.0;    ///< How far a planner lets this sensor's rays go for gains.
   double gain_resolution_deg = 5.0;
+  double gain_row_angle_deg = 0.0;  ///< Between the rows of those rays; 0: gain_resolution_deg.
 
   template <class Visitor>
   void visit(Visitor&& field) {
@@ -56,6 +57,8 @@ struct SensorModel {
     field("gain_range_m", gain_range_m, Bounds{1.0, 200.0}, "range of the rays of a gain");
     field("gain_resolution_deg", gain_resolution_deg, Bounds{0.5, 45.0},
           "angle between the rays of a gain");
+    field("gain_row_angle_deg", gain_row_angle_deg, Bounds{0.0, 45.0},
+          "the same between rows; 0: no other");
   }
   [[nodiscard]] std::vector<std::string> problems() const;
 };

@@ -10,6 +10,7 @@
 #include "spelunk/planners/gbplanner/global_search.h"
 #include "spelunk/planners/gbplanner/improve_path.h"
 #include "spelunk/planners/gbplanner/plan_view.h"
+#include "spelunk/planners/gbplanner/presumed_piece.h"
 #include "spelunk/planners/shared/flight_line.h"
 #include "spelunk/planners/shared/free_start.h"
 
@@ -39,6 +40,7 @@ struct GbPlanner::Search {
   std::optional<Proposal> previous{};
   LocalPlan local{};
   double way_home_m = 0.0;
+  std::optional<map::PresumedWays> presumed{};  ///< From the root.
 
   Search(GbPlanner& owner, const PlanRequest& asked)
       : planner(owner),
@@ -87,11 +89,10 @@ struct GbPlanner::Search {
   /// Before anything is called explored: a denser graph, and less gain is enough.
   void planLocallyOnceMore() {
     constexpr int kDenser = 5;
-    constexpr double kShareOfThreshold = 0.25;
     GbPlannerParams closer = planner.params_;
     closer.max_vertices *= kDenser;
     closer.max_edges *= kDenser;
-    closer.gain_threshold_m3 *= kShareOfThreshold;
+    closer.gain_threshold_m3 *= kMinorShare;
     planLocally(closer);
   }
 
@@ -101,7 +102,7 @@ struct GbPlanner::Search {
     reevaluateFrontiers();
     if (!local.best.empty()) planner.global_.addPath(local.best, view.space());
     for (const PrincipalPath& principal : local.principals) {
-      if (planner.global_.hasFrontierNear(principal.path.back())) continue;
+      if (planner.global_.hasFrontierNear(principal.path.back(), principal.gain_m3)) continue;
       const VertexId leaf = planner.global_.addPath(principal.path, view.space());
       planner.global_.markFrontier(leaf, principal.gain_m3);
     }
@@ -114,7 +115,7 @@ struct GbPlanner::Search {
       if (frontier.isOpen() && view.localBox().contains(at))
         frontier.gain_m3 = view.gainAt(at, request.pose.yaw);
     }
-    planner.global_.dropFrontiersBelow(planner.params_.frontier_gain_m3);
+    planner.global_.dropFrontiersBelow(kMinorShare * planner.params_.frontier_gain_m3);
   }
 
   /// Local completion: what promised to be worth coming here has kept its promise or not.
@@ -135,19 +136,60 @@ struct GbPlanner::Search {
   }
 
   /// Alg. 3.
-  GlobalPlan planGlobally() {
+  GlobalPlan planGlobally(double frontier_gain_m3, bool with_presumed_ways) {
     const Stopwatch watch;
-    const GlobalQuery query{current, request.remaining_s, planner.robot_.speed_max_mps,
-                            [this](const Eigen::Vector3d& at) {
-                              if (wasVisited(request.trail, at, planner.params_.visited_radius_m))
-                                return 0.0;
-                              return gainAnywhere(request, credible(), planner.evaluator_, at,
-                                                  request.pose.yaw);
-                            }};
+    GlobalQuery query{current, request.remaining_s, planner.robot_.speed_max_mps, frontier_gain_m3,
+                      [this](const Eigen::Vector3d& at) {
+                        if (wasVisited(request.trail, at, planner.params_.visited_radius_m))
+                          return 0.0;
+                        return gainAnywhere(request, credible(), planner.evaluator_, at,
+                                            request.pose.yaw);
+                      }};
+    if (with_presumed_ways && !presumed)
+      presumed.emplace(planner.credible_.of(request.map), root, kPresumedReach_m, planner.closed_);
+    if (with_presumed_ways) query.presumed = &*presumed;
     GlobalPlan plan = gbplanner::planGlobally(planner.global_, query, view.space(), planner.tried_,
                                               planner.params_);
     result.stats.global_ms += watch.milliseconds();
     return plan;
+  }
+
+  /// The next piece of the presumed way to the plan's target; false if it cannot be flown.
+  bool advance(const GlobalPlan& plan) {
+    const map::PresumedWays to_target(planner.credible_.of(request.map), *plan.target,
+                                      kPresumedReach_m, planner.closed_);
+    const Polyline piece = pieceTowards(local.local, to_target, planner.tried_);
+    if (piece.empty()) return false;
+    planner.global_.addPath(piece, view.space());
+    finish(improved(piece), PathKind::kReposition, piece.back());
+    const auto whole = [](double number) { return std::to_string(std::lround(number)); };
+    result.reason =
+        "through a gap of the map to a frontier of " + whole(plan.gain_m3) + " m3, " +
+        whole(to_target.distanceTo(root)) + " m away, " +
+        (std::isfinite(plan.saved_m) ? whole(plan.saved_m) + " m less than the known way"
+                                     : std::string("where no known way leads"));
+    return true;
+  }
+
+  /// No piece of the presumed way can be flown: none leads through here again.
+  void closeWayAhead(const GlobalPlan& plan) {
+    if (const auto place = placeAhead(presumed->wayTo(*plan.target)))
+      planner.closed_.push_back(*place);
+    presumed.reset();
+  }
+
+  /// Goes to the best frontier, on a known way or piece by piece on a presumed one.
+  bool repositions(double frontier_gain_m3, GlobalPlan& plan) {
+    constexpr int kAttempts = 4;
+    for (int k = 0; k <= kAttempts; ++k) {
+      plan = planGlobally(frontier_gain_m3, k < kAttempts);
+      if (plan.saved_m <= 0.0) break;
+      if (advance(plan)) return true;
+      closeWayAhead(plan);
+    }
+    if (plan.path.empty()) return false;
+    reposition(plan);
+    return true;
   }
 
   void reposition(const GlobalPlan& plan) {
@@ -161,13 +203,12 @@ struct GbPlanner::Search {
   void choose() {
     if (!local.best.empty()) return followLocalPath();
     closeFrontiersHere();
-    GlobalPlan plan = planGlobally();
-    if (!plan.path.empty()) return reposition(plan);
+    GlobalPlan plan;
+    if (repositions(planner.params_.frontier_gain_m3, plan)) return;
     planLocallyOnceMore();
     extendGlobalGraph();
     if (!local.best.empty()) return followLocalPath();
-    plan = planGlobally();
-    if (!plan.path.empty()) return reposition(plan);
+    if (repositions(kMinorShare * planner.params_.frontier_gain_m3, plan)) return;
     reportNothingLeft(plan);
   }
 
@@ -318,6 +359,7 @@ void GbPlanner::reset() {
   proposal_.reset();
   trail_known_until_s_ = -std::numeric_limits<double>::infinity();
   checked_map_.reset();
+  closed_.clear();
   local_layer_ = {};
 }
 

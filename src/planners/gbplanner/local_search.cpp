@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "spelunk/common/stopwatch.h"
 #include "spelunk/planners/gbplanner/exploration_gain.h"
@@ -71,13 +72,22 @@ struct Search {
     }
   }
 
+  /// Branches that promise a frontier's gain, then those that promise only a share of it: a long
+  /// branch of little gain must not stand for a shorter one of much.
   void findPrincipalPaths() {
+    addPrincipalPaths(params.frontier_gain_m3, std::numeric_limits<double>::infinity());
+    addPrincipalPaths(kMinorShare * params.frontier_gain_m3, params.frontier_gain_m3);
+  }
+
+ private:
+  void addPrincipalPaths(double gain_min_m3, double gain_max_m3) {
     std::vector<Polyline> promising;
     std::vector<double> gains;
     for (std::size_t i = 1; i < paths.size(); ++i) {
-      if (paths[i].size() < 2 || plan.gains_m3[i] < params.frontier_gain_m3) continue;
+      const double gain = plan.gains_m3[i];
+      if (paths[i].size() < 2 || gain < gain_min_m3 || gain >= gain_max_m3) continue;
       promising.push_back(paths[i]);
-      gains.push_back(plan.gains_m3[i]);
+      gains.push_back(gain);
     }
     for (const graph::PathCluster& cluster :
          graph::clusterPaths(promising, params.path_spacing_m, params.cluster_distance_m)) {
@@ -85,7 +95,6 @@ struct Search {
     }
   }
 
- private:
   [[nodiscard]] double headingAtEnd(const Polyline& path) const {
     if (path.size() < 2) return request.pose.yaw;
     const Eigen::Vector3d step = path.back() - path[path.size() - 2];

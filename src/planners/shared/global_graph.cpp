@@ -91,14 +91,25 @@ VertexId GlobalGraph::addFlown(const Eigen::Vector3d& point, const FreeSpace& sp
   return vertex;
 }
 
-bool GlobalGraph::hasFrontierNear(const Eigen::Vector3d& point) const {
+bool GlobalGraph::hasFrontierNear(const Eigen::Vector3d& point, double gain_m3) const {
+  constexpr double kMuchMore = 2.0;  // so much better is another frontier
   return std::any_of(frontiers_.begin(), frontiers_.end(), [&](const Frontier& frontier) {
-    return (graph_.position(frontier.vertex) - point).norm() < limits_.frontier_spacing_m;
+    return (graph_.position(frontier.vertex) - point).norm() < limits_.frontier_spacing_m &&
+           (!frontier.isOpen() || gain_m3 <= kMuchMore * frontier.gain_m3);
   });
 }
 
 void GlobalGraph::markFrontier(VertexId vertex, double gain_m3) {
-  if (!hasFrontierNear(graph_.position(vertex))) frontiers_.push_back({vertex, gain_m3, ""});
+  const Eigen::Vector3d& point = graph_.position(vertex);
+  if (hasFrontierNear(point, gain_m3)) return;
+  frontiers_.erase(std::remove_if(frontiers_.begin(), frontiers_.end(),
+                                  [&](const Frontier& frontier) {
+                                    return frontier.isOpen() &&
+                                           (graph_.position(frontier.vertex) - point).norm() <
+                                               limits_.frontier_spacing_m;
+                                  }),
+                   frontiers_.end());
+  frontiers_.push_back({vertex, gain_m3, ""});
 }
 
 void GlobalGraph::dropFrontiersBelow(double gain_m3) {

@@ -7,6 +7,7 @@
 #include "spelunk/common/robot_model.h"
 #include "spelunk/map/configuration_space.h"
 #include "spelunk/map/credible_map.h"
+#include "spelunk/map/presumed_ways.h"
 #include "spelunk/map/volumetric_gain.h"
 #include "spelunk/planners/exploration_planner.h"
 #include "spelunk/planners/gbplanner/gb_planner_params.h"
@@ -56,6 +57,7 @@ class GbPlanner final : public ExplorationPlanner {
   double trail_known_until_s_;
   std::shared_ptr<const map::FrozenMap> checked_map_;
   std::size_t checked_zones_ = 0;
+  std::vector<map::ClosedPlace> closed_;  ///< Where presumed ways turned out to lead nowhere.
   GraphLayer local_layer_;
 };
 

@@ -36,6 +36,7 @@ struct GbPlannerParams {
   double cluster_distance_m = 2.0;
   double global_distance_weight = 0.02;
   double global_radius_m = 4.0;
+  double presumed_saving_m = 30.0;
   double eta_factor = 1.1;
   double tried_radius_m = 3.0;
   double visited_radius_m = 0.0;
@@ -94,6 +95,8 @@ struct GbPlannerParams {
           "how much distance to a frontier costs [epsilon_D]", Audience::kUser);
     field("global_radius_m", global_radius_m, Bounds{0.5, 50.0},
           "new global vertices are joined to those within it");
+    field("presumed_saving_m", presumed_saving_m, Bounds{0.0, 1e6},
+          "a way through gaps of the map is tried if it is shorter by this");
     field("eta_factor", eta_factor, Bounds{1.0, 5.0}, "travel time is length / speed times this");
     field("tried_radius_m", tried_radius_m, Bounds{0.1, 50.0},
           "targets this near to a failed one are the same");

@@ -10,6 +10,10 @@
 
 namespace spelunk::planners::gbplanner {
 
+/// Once nothing reaches the thresholds g_e and frontier_gain_m3, places that promise this share of
+/// them are good enough.
+inline constexpr double kMinorShare = 0.25;
+
 /// What earlier plans leave to this one.
 struct LocalContext {
   const TriedTargets& tried;
@@ -17,7 +21,8 @@ struct LocalContext {
   double way_home_m = 0.0;                         ///< From the start of the plan.
 };
 
-/// A branch of the local graph with something to see at its end.
+/// A branch of the local graph with something to see at its end: at least kMinorShare of
+/// frontier_gain_m3.
 struct PrincipalPath {
   graph::Polyline path;
   double gain_m3 = 0.0;  ///< At its last vertex.

@@ -54,9 +54,10 @@ class GlobalGraph {
   /// The next place the robot has been at: joined to the one before because it was flown.
   graph::VertexId addFlown(const Eigen::Vector3d& point, const FreeSpace& space);
 
-  /// Marks a vertex as frontier unless another one is nearer than the frontier spacing.
+  /// Marks a vertex as frontier unless one nearer than the frontier spacing is closed or promises
+  /// at least half as much; open ones that promise less give way.
   void markFrontier(graph::VertexId vertex, double gain_m3);
-  [[nodiscard]] bool hasFrontierNear(const Eigen::Vector3d& point) const;
+  [[nodiscard]] bool hasFrontierNear(const Eigen::Vector3d& point, double gain_m3) const;
   [[nodiscard]] std::vector<Frontier>& frontiers() { return frontiers_; }
   [[nodiscard]] const std::vector<Frontier>& frontiers() const { return frontiers_; }
   /// Drops open frontiers whose gain is below `gain_m3`.
