@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 
 #include "mission_impl.h"
 
@@ -25,6 +26,12 @@ constexpr double kWallReach_m = 0.8;  // full extents of where a wall is looked 
 constexpr double kWallHeight_m = 0.5;
 constexpr double kZoneDepth_m = 1.0;  // below and above the place
 constexpr int kZoneCorners = 8;
+
+std::string placeOf(const Eigen::Vector3d& point) {
+  char text[64];
+  std::snprintf(text, sizeof(text), "(%.1f, %.1f, %.1f)", point.x(), point.y(), point.z());
+  return text;
+}
 
 NoGoZone zoneAround(const terrain::PathGroundCheck& bad, double radius_m, int number) {
   NoGoZone zone;
@@ -154,7 +161,7 @@ void Mission::Impl::avoid(const terrain::PathGroundCheck& bad) {
   NoGoZone zone =
       zoneBeside(bad, input.latest()->pose.position, robot.box_m, ++status.zones_marked);
   hold("untraversable ground ahead (" + std::string(terrain::toText(bad.reason)) +
-           "): stopped, marked as " + zone.name + ", going back",
+           "): stopped, marked as " + zone.name + " at " + placeOf(bad.where) + ", going back",
        planners::PathOutcome::kBlocked);
   home_graph->noteZone(zone);
   no_go.push_back(std::move(zone));

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "scan_cells.h"
 #include "spelunk/terrain/elevation_map.h"
@@ -26,13 +27,40 @@ void ElevationMap::fuseCells(const Eigen::Vector3f& sensor, float stamp, Elevati
   }
   const auto hanging = std::stable_partition(high_ones.begin(), high_ones.end(),
                                              [&](std::size_t i) { return !hangs(measures[i]); });
-  for (auto i = high_ones.begin(); i != hanging; ++i) fuse(measures[*i], sensor, stamp, update);
+  for (auto i = high_ones.begin(); i != hanging; ++i) {
+    const CellMeasure& measure = measures[*i];
+    const CellIndex cell = grid_.first() + CellIndex(measure.x, measure.y);
+    const bool is_new = std::isnan(height_[grid_.slotOf(cell)]);
+    fuse(measure, sensor, stamp, update);
+    if (is_new) high_cells_.push_back({cell, measure.lowest});
+  }
   for (auto i = hanging; i != high_ones.end(); ++i) update.dropped_high += measures[*i].count;
+  forgetHanging();
+}
+
+void ElevationMap::forgetHanging() {
+  const auto is_done = [this](const HighCell& high) {
+    if (!grid_.contains(high.cell)) return true;
+    const std::size_t slot = grid_.slotOf(high.cell);
+    // Replaced by what lies lower, or forgotten with the window.
+    if (!(height_[slot] >= high.lowest - kTopBand_m)) return true;
+    if (!hangs(high.cell, high.lowest)) return false;
+    height_[slot] = std::numeric_limits<float>::quiet_NaN();
+    other_count_[slot] = 0;
+    changed_.push_back(high.cell);
+    return true;
+  };
+  high_cells_.erase(std::remove_if(high_cells_.begin(), high_cells_.end(), is_done),
+                    high_cells_.end());
 }
 
 bool ElevationMap::hangs(const CellMeasure& measure) const {
   const CellIndex cell = grid_.first() + CellIndex(measure.x, measure.y);
   if (!std::isnan(height_[grid_.slotOf(cell)])) return false;  // ScanCells has looked at it
+  return hangs(cell, measure.lowest);
+}
+
+bool ElevationMap::hangs(const CellIndex& cell, float lowest) const {
   const auto cell_m = static_cast<float>(params_.cell_m);
   const auto climb = static_cast<float>(std::tan(params_.climb_deg * M_PI / 180.0));
   const Eigen::Vector2f way = (grid_.middle() - cell).cast<float>();
@@ -45,7 +73,7 @@ bool ElevationMap::hangs(const CellMeasure& measure) const {
     const float ground = height_[grid_.slotOf(there)];
     const float least = static_cast<float>(foot_z_) - climb * (length - gone) * cell_m - kBelow_m;
     if (!(ground >= least)) continue;  // unknown, or the bottom of a hole
-    if (measure.lowest > ground + static_cast<float>(params_.clearance_m) + climb * gone * cell_m)
+    if (lowest > ground + static_cast<float>(params_.clearance_m) + climb * gone * cell_m)
       return true;
   }
   return false;

@@ -8,7 +8,6 @@ namespace spelunk::terrain {
 namespace {
 
 constexpr std::size_t kBlock = 256;
-constexpr float kTopBand_m = 0.1F;   // noise and slope within a cell, less than a step
 constexpr float kFarthest_m = 1e5F;  // farther coordinates are no returns
 constexpr float kInf = std::numeric_limits<float>::infinity();
 

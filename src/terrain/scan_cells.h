@@ -9,6 +9,10 @@
 
 namespace spelunk::terrain {
 
+/// Of a cell's returns the highest so far down are averaged: noise and slope within a cell, less
+/// than a step.
+inline constexpr float kTopBand_m = 0.1F;
+
 /// Where a scan's points lie: x, y from the window's lowest corner, z as in the world. Floats,
 /// since the window is small.
 struct WindowFrame {

@@ -170,6 +170,28 @@ TEST(ElevationMap, OverhangsAndCeilingsAreNoGround) {
   EXPECT_GT(below, 1500) << "the ground under the slab is seen";
 }
 
+TEST(ElevationMap, ARoofSeenBeforeTheGroundBelowItIsForgottenWhenThatIsSeenAround) {
+  const ElevationParams params = plainParams();
+  ElevationMap map(params);
+  const Eigen::Isometry3d base = baseAt(0, 0);
+  const double foot = base.translation().z() - params.base_height_m;
+  const Eigen::Vector3d roof(2.62, 0.02, foot + 1.6);
+  const Eigen::Vector3d post(2.62, 0.82, foot + 0.3);  // the lowest of it that is seen
+  map.insert(scanOfPoints({roof, post}, base, 0.0), base);
+  ASSERT_TRUE(map.at(map.grid().cellOf(roof.head<2>())).has_value()) << "nothing else is known";
+  std::vector<Eigen::Vector3d> ramp;  // it falls from where the robot stands
+  for (double x = 0.62; x < 3.5; x += 0.04)
+    for (double y = -1.0; y < 1.2; y += 0.04) {
+      const Eigen::Vector3d at(x, y, foot - 0.3 * (x - 0.6));
+      const auto cell = map.grid().cellOf(at.head<2>());
+      if (cell != map.grid().cellOf(roof.head<2>()) && cell != map.grid().cellOf(post.head<2>()))
+        ramp.push_back(at);
+    }
+  map.insert(scanOfPoints(ramp, base, 0.1), base);
+  EXPECT_FALSE(map.at(map.grid().cellOf(roof.head<2>())).has_value());
+  EXPECT_TRUE(map.at(map.grid().cellOf(post.head<2>())).has_value()) << "it stands on the ground";
+}
+
 TEST(ElevationMap, WallsStandOutAndTheFloorBesideThemDoesNot) {
   sim::WorldMesh mesh;
   test::addBox(mesh, {-10.0F, -1.5F, 0.0F}, {20.0F, 1.5F, 3.0F});  // a tunnel

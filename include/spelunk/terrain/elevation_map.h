@@ -94,10 +94,10 @@ struct CellMeasure;
 /// `clearance_m` is ground or what stands on it, and what hangs higher is dropped (in place of the
 /// lowest local maximum of Miller 2020, section V-A1: a wall's cell must not take the wall's foot
 /// for ground). Where no ground is known, the robot's own and all that is known on the way to it
-/// tell with `climb_deg` what is too high. The highest 10 cm of the rest are
-/// averaged: the surface a foot would meet. The measurement enters a Kalman filter unless its
-/// Mahalanobis distance is too large; measurements that keep disagreeing with the cell, but agree
-/// with each other, replace it.
+/// tell with `climb_deg` what is too high; a cell taken for ground before the ground on that way
+/// was seen is forgotten when it is. The highest 10 cm of the rest are averaged: the surface a foot
+/// would meet. The measurement enters a Kalman filter unless its Mahalanobis distance is too large;
+/// measurements that keep disagreeing with the cell, but agree with each other, replace it.
 ///
 /// Besides, every ray that goes down tells how high the surface below it can be at most, which is
 /// kept for cells not seen yet: it is how a hole is known whose bottom nobody sees. Rays are
@@ -145,7 +145,14 @@ class ElevationMap {
   void moveWindow(const CellIndex& middle);
   void forget(const CellIndex& first, const CellIndex& end);
   void growUncertainty(const Eigen::Vector3d& position, double stamp_s);
+  /// A cell that was started high above the robot's feet, and its lowest return.
+  struct HighCell {
+    CellIndex cell;
+    float lowest;
+  };
   [[nodiscard]] bool hangs(const CellMeasure& measure) const;
+  [[nodiscard]] bool hangs(const CellIndex& cell, float lowest) const;
+  void forgetHanging();
   void start(std::size_t slot, float height, float variance);
   void fuse(const CellMeasure& measure, const Eigen::Vector3f& sensor, float stamp,
             ElevationUpdate& update);
@@ -162,6 +169,7 @@ class ElevationMap {
   std::vector<float> bound_;
   std::vector<float> other_height_;  ///< Of the measurements in conflict with the cell.
   std::vector<std::uint8_t> other_count_;
+  std::vector<HighCell> high_cells_;
   std::vector<CellIndex> changed_;
   bool changed_everywhere_ = false;
   float pending_drift_m_ = 0.0F;  ///< Not yet added to the bounds.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 namespace spelunk::benchmark {
 
@@ -30,10 +31,21 @@ void PlainElevation::insert(const Scan& scan, const Eigen::Isometry3d& T_world_b
   std::vector<bool> hang;
   for (const auto* entry : high_ones)
     hang.push_back(
+        cells_.count(entry->first) == 0 &&
         hangs(entry->first, *std::min_element(entry->second.begin(), entry->second.end()), base));
-  for (std::size_t i = 0; i < high_ones.size(); ++i)
-    if (!hang[i])
-      enter(high_ones[i]->first, high_ones[i]->second, scan.T_world_sensor.translation());
+  for (std::size_t i = 0; i < high_ones.size(); ++i) {
+    if (hang[i]) continue;
+    const auto& [key, heights] = *high_ones[i];
+    const bool is_new = cells_.count(key) == 0;
+    enter(key, heights, scan.T_world_sensor.translation());
+    if (is_new) high_[key] = *std::min_element(heights.begin(), heights.end());
+  }
+  for (auto cell = high_.begin(); cell != high_.end();) {
+    const bool is_high = cells_.at(cell->first).height >= cell->second - 0.1;
+    const bool is_hanging = is_high && hangs(cell->first, cell->second, base);
+    if (is_hanging) cells_.erase(cell->first);
+    cell = is_high && !is_hanging ? std::next(cell) : high_.erase(cell);
+  }
 }
 
 std::map<PlainElevation::Key, double> PlainElevation::slopes(
@@ -77,7 +89,6 @@ bool PlainElevation::isKept(const Eigen::Vector3d& at, const Eigen::Isometry3d& 
 double PlainElevation::climb() const { return std::tan(params_.climb_deg * M_PI / 180.0); }
 
 bool PlainElevation::hangs(const Key& key, double lowest, const Eigen::Vector3d& base) const {
-  if (cells_.count(key) > 0) return false;
   const Key middle = keyOf(base);
   const Eigen::Vector2d way(middle.first - key.first, middle.second - key.second);
   const double foot = base.z() - params_.base_height_m;

@@ -42,6 +42,7 @@ class PlainElevation {
 
   terrain::ElevationParams params_;
   std::map<Key, Cell> cells_;
+  std::map<Key, double> high_;  ///< Lowest return of cells started high above the robot's feet.
   std::optional<Eigen::Vector3d> last_;
   double last_stamp_s_ = 0.0;
 };

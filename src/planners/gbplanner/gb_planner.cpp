@@ -181,8 +181,10 @@ struct GbPlanner::Search {
   /// Goes to the best frontier, on a known way or piece by piece on a presumed one.
   bool repositions(double frontier_gain_m3, GlobalPlan& plan) {
     constexpr int kAttempts = 4;
-    for (int k = 0; k <= kAttempts; ++k) {
-      plan = planGlobally(frontier_gain_m3, k < kAttempts);
+    // What was seen from afar says nothing of a footing: robots with legs stay on known ways.
+    const int attempts = kindOf(planner.robot_) == RobotKind::kAerial ? kAttempts : 0;
+    for (int k = 0; k <= attempts; ++k) {
+      plan = planGlobally(frontier_gain_m3, k < attempts);
       if (plan.saved_m <= 0.0) break;
       if (advance(plan)) return true;
       closeWayAhead(plan);

@@ -96,7 +96,7 @@ struct GbPlannerParams {
     field("global_radius_m", global_radius_m, Bounds{0.5, 50.0},
           "new global vertices are joined to those within it");
     field("presumed_saving_m", presumed_saving_m, Bounds{0.0, 1e6},
-          "a way through gaps of the map is tried if it is shorter by this");
+          "a way through gaps of the map is flown if it is shorter by this");
     field("eta_factor", eta_factor, Bounds{1.0, 5.0}, "travel time is length / speed times this");
     field("tried_radius_m", tried_radius_m, Bounds{0.1, 50.0},
           "targets this near to a failed one are the same");
