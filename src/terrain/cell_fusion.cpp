@@ -11,6 +11,7 @@ namespace {
 constexpr float kLeastVariance = 0.003F * 0.003F;  // below it lies what a cell's height means
 constexpr int kIndependent = 4;   // returns of one scan in a cell; more share their errors
 constexpr int kSearchCells = 2;   // between cells looked at for ground on the way to the robot
+constexpr int kPauseMax = 8;      // scans between two looks at a cell that may hang
 constexpr float kBelow_m = 0.3F;  // ground may lie so much lower than the robot's slope limit lets
 
 }  // namespace
@@ -32,14 +33,16 @@ void ElevationMap::fuseCells(const Eigen::Vector3f& sensor, float stamp, Elevati
     const CellIndex cell = grid_.first() + CellIndex(measure.x, measure.y);
     const bool is_new = std::isnan(height_[grid_.slotOf(cell)]);
     fuse(measure, sensor, stamp, update);
-    if (is_new) high_cells_.push_back({cell, measure.lowest});
+    if (is_new) high_cells_.push_back({cell, measure.lowest, 1, 1});
   }
   for (auto i = hanging; i != high_ones.end(); ++i) update.dropped_high += measures[*i].count;
   forgetHanging();
 }
 
 void ElevationMap::forgetHanging() {
-  const auto is_done = [this](const HighCell& high) {
+  const auto is_done = [this](HighCell& high) {
+    if (--high.wait > 0) return false;
+    high.wait = high.pause = std::min(2 * high.pause, kPauseMax);
     if (!grid_.contains(high.cell)) return true;
     const std::size_t slot = grid_.slotOf(high.cell);
     // Replaced by what lies lower, or forgotten with the window.

@@ -187,7 +187,7 @@ TEST(ElevationMap, ARoofSeenBeforeTheGroundBelowItIsForgottenWhenThatIsSeenAroun
       if (cell != map.grid().cellOf(roof.head<2>()) && cell != map.grid().cellOf(post.head<2>()))
         ramp.push_back(at);
     }
-  map.insert(scanOfPoints(ramp, base, 0.1), base);
+  for (int i = 1; i < 5; ++i) map.insert(scanOfPoints(ramp, base, 0.1 * i), base);
   EXPECT_FALSE(map.at(map.grid().cellOf(roof.head<2>())).has_value());
   EXPECT_TRUE(map.at(map.grid().cellOf(post.head<2>())).has_value()) << "it stands on the ground";
 }

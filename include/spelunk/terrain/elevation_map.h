@@ -145,10 +145,13 @@ class ElevationMap {
   void moveWindow(const CellIndex& middle);
   void forget(const CellIndex& first, const CellIndex& end);
   void growUncertainty(const Eigen::Vector3d& position, double stamp_s);
-  /// A cell that was started high above the robot's feet, and its lowest return.
+  /// A cell that was started high above the robot's feet. Most are walls and stay: the longer they
+  /// do, the less often they are looked at.
   struct HighCell {
     CellIndex cell;
-    float lowest;
+    float lowest;  ///< Return.
+    int wait;      ///< Scans until the next look.
+    int pause;     ///< Between the last two.
   };
   [[nodiscard]] bool hangs(const CellMeasure& measure) const;
   [[nodiscard]] bool hangs(const CellIndex& cell, float lowest) const;

@@ -38,11 +38,17 @@ void PlainElevation::insert(const Scan& scan, const Eigen::Isometry3d& T_world_b
     const auto& [key, heights] = *high_ones[i];
     const bool is_new = cells_.count(key) == 0;
     enter(key, heights, scan.T_world_sensor.translation());
-    if (is_new) high_[key] = *std::min_element(heights.begin(), heights.end());
+    if (is_new) high_[key] = {*std::min_element(heights.begin(), heights.end())};
   }
   for (auto cell = high_.begin(); cell != high_.end();) {
-    const bool is_high = cells_.at(cell->first).height >= cell->second - 0.1;
-    const bool is_hanging = is_high && hangs(cell->first, cell->second, base);
+    High& look = cell->second;
+    if (--look.wait > 0) {
+      ++cell;
+      continue;
+    }
+    look.wait = look.pause = std::min(2 * look.pause, 8);
+    const bool is_high = cells_.at(cell->first).height >= look.lowest - 0.1;
+    const bool is_hanging = is_high && hangs(cell->first, look.lowest, base);
     if (is_hanging) cells_.erase(cell->first);
     cell = is_high && !is_hanging ? std::next(cell) : high_.erase(cell);
   }

@@ -33,6 +33,11 @@ class PlainElevation {
   [[nodiscard]] std::map<Key, double> slopes(const terrain::TraversabilityParams& params) const;
 
  private:
+  struct High {
+    double lowest = 0.0;
+    int wait = 1;
+    int pause = 1;
+  };
   [[nodiscard]] Key keyOf(const Eigen::Vector3d& point) const;
   [[nodiscard]] bool isKept(const Eigen::Vector3d& at, const Eigen::Isometry3d& T) const;
   [[nodiscard]] double climb() const;
@@ -42,7 +47,7 @@ class PlainElevation {
 
   terrain::ElevationParams params_;
   std::map<Key, Cell> cells_;
-  std::map<Key, double> high_;  ///< Lowest return of cells started high above the robot's feet.
+  std::map<Key, High> high_;  ///< Cells started high above the robot's feet.
   std::optional<Eigen::Vector3d> last_;
   double last_stamp_s_ = 0.0;
 };
