@@ -4,6 +4,7 @@
 
 #include "spelunk/common/contract.h"
 #include "spelunk/planners/gbplanner/global_search.h"
+#include "spelunk/planners/gbplanner/local_search.h"
 
 namespace spelunk::planners::gbplanner {
 namespace {
@@ -170,6 +171,15 @@ TEST_F(TwoFrontiers, LeavesOutWhatTheEnduranceDoesNotAllow) {
   const GlobalPlan planned = plan();
   EXPECT_TRUE(planned.path.empty());
   EXPECT_EQ(planned.out_of_budget, 1);
+}
+
+TEST_F(TwoFrontiers, OnlyOnesOfFullGainCountAsLeftBehind) {
+  params_.frontier_gain_m3 = 45.0;
+  query_.frontier_gain_m3 = kMinorShare * params_.frontier_gain_m3;
+  query_.remaining_s = 1.0;
+  const GlobalPlan planned = plan();
+  EXPECT_TRUE(planned.path.empty());
+  EXPECT_EQ(planned.out_of_budget, 1) << "the near one promises 40";
 }
 
 TEST_F(TwoFrontiers, ClosesATargetThatFailedAndSaysWhy) {

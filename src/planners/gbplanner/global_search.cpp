@@ -57,13 +57,14 @@ struct Search {
     plan.unreachable = 0;
     for (Frontier& frontier : global.frontiers()) {
       if (!frontier.isOpen() || frontier.gain_m3 < query.frontier_gain_m3) continue;
+      const int counted = frontier.gain_m3 >= params.frontier_gain_m3 ? 1 : 0;
       const Leg leg = legTo(frontier);
       if (!std::isfinite(leg.length_m)) {
-        ++plan.unreachable;
+        plan.unreachable += counted;
         continue;
       }
       const double gain = gainOf(frontier, leg);
-      if (gain <= 0.0) ++plan.out_of_budget;
+      if (gain <= 0.0) plan.out_of_budget += counted;
       if (gain <= plan.best) continue;
       plan.best = gain;
       best = &frontier;

@@ -28,9 +28,11 @@ struct GlobalPlan {
   std::optional<Eigen::Vector3d> target;
   double saved_m = 0.0;  ///< Above 0: the target is better gone to on the presumed way.
   double gain_m3 = 0.0;
-  double best = 0.0;      ///< Eq. (2) of the chosen frontier.
-  int out_of_budget = 0;  ///< Open frontiers that eq. (3) rules out.
-  int unreachable = 0;    ///< Open frontiers no free path leads to.
+  double best = 0.0;  ///< Eq. (2) of the chosen frontier.
+  /// Open frontiers of the full frontier_gain_m3 that eq. (3) rules out, and that no free path
+  /// leads to.
+  int out_of_budget = 0;
+  int unreachable = 0;
 };
 
 /// The global planner (Dang 2020, Alg. 3), ImprovePath left to the caller: the frontier that
