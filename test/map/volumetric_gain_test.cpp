@@ -156,6 +156,23 @@ TEST(VolumetricGain, ConesHoldTheVolumeOfTheFieldOfView) {
   EXPECT_NEAR(coneGain(half_known, 5.0), 0.5 * coneGain(window, 5.0), 0.03 * coneGain(window, 5.0));
 }
 
+TEST(VolumetricGain, RowsMayLieAtAnotherAngleThanColumns) {
+  OccupancyMap map{MapParams{}};
+  const LocalWindow window(*map.freeze(), cube(12.0));
+  SensorModel sensor = sensorOf(360, 30, 10);
+  sensor.gain_row_angle_deg = 15.0;
+  const auto gain = [&](GainCounting counting) {
+    return GainEvaluator({sensor}, 0.2, counting)
+        .evaluate(window, {0.1, 0.1, 0.1}, 0.0, AxisAlignedBox{});
+  };
+  const int per_ray = gain(GainCounting::kPerRay).unknown_voxels;
+  EXPECT_GT(per_ray, 72 * 3 * 49) << "three rows, not seven";
+  EXPECT_LT(per_ray, 72 * 3 * 87);
+  const double half = 22.5 * M_PI / 180.0;  // a row sees half a row beyond it
+  const double field = 2.0 * M_PI * 2.0 * std::sin(half) * 1000.0 / 3.0;
+  EXPECT_NEAR(gain(GainCounting::kCone).unknown_m3, field, 0.02 * field);
+}
+
 TEST(VolumetricGain, ConesCountSoFarBeyondTheirFirstUnknownVoxel) {
   OccupancyMap map{MapParams{}};
   map.markFree({{-4.0, -4.0, -4.0}, {4.0, 4.0, 4.0}});
