@@ -123,7 +123,7 @@ def snakemake(campaign, options):
     """The command that flies all that is missing."""
     return ["setpriv", "--pdeathsig", "KILL", "snakemake", "--snakefile", str(SNAKEFILE),
             "--directory", str(options.out), "--cores", str(options.jobs), "--scheduler", "greedy",
-            "--rerun-triggers", "mtime", "--ignore-incomplete", "--nolock",
+            "--rerun-triggers", "mtime", "--ignore-incomplete", "--keep-incomplete", "--nolock",
             "--config", f"description={options.file.resolve()}",
             f"mission={options.mission.absolute()}", f"meshes={json.dumps(campaign.meshes)}"]
 
