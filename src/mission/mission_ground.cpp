@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 #include "mission_impl.h"
 
@@ -26,12 +25,6 @@ constexpr double kWallReach_m = 0.8;  // full extents of where a wall is looked 
 constexpr double kWallHeight_m = 0.5;
 constexpr double kZoneDepth_m = 1.0;  // below and above the place
 constexpr int kZoneCorners = 8;
-
-std::string placeOf(const Eigen::Vector3d& point) {
-  char text[64];
-  std::snprintf(text, sizeof(text), "(%.1f, %.1f, %.1f)", point.x(), point.y(), point.z());
-  return text;
-}
 
 NoGoZone zoneAround(const terrain::PathGroundCheck& bad, double radius_m, int number) {
   NoGoZone zone;

@@ -71,6 +71,9 @@ struct WayHome {
 
 constexpr double kBodyShare = 0.5;  // of the safety box: returns from there are the robot itself
 
+/// A place as messages name it, metres: "(1.0, 2.0, 3.0)".
+[[nodiscard]] std::string placeOf(const Eigen::Vector3d& point);
+
 /// State and steps of the mission. Steps that belong together share a .cpp:
 /// mission_inputs, mission_goto, mission_goto_plans, mission_cycle, mission_ground, mission_plans,
 /// mission_home, mission_way_home.

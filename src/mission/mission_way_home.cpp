@@ -12,13 +12,18 @@ constexpr std::size_t kPlacesOnTrail = 3;  // that home is still reachable from
 constexpr double kAtHomeSlack_m = 0.2;
 
 std::string placeText(const char* what, const Eigen::Vector3d& place, double metres_away) {
-  char text[160];
-  std::snprintf(text, sizeof text, "the way home is %s at (%.1f, %.1f, %.1f), %.1f m from here",
-                what, place.x(), place.y(), place.z(), metres_away);
-  return text;
+  char distance[32];
+  std::snprintf(distance, sizeof distance, "%.1f m from here", metres_away);
+  return "the way home is " + std::string(what) + " at " + placeOf(place) + ", " + distance;
 }
 
 }  // namespace
+
+std::string placeOf(const Eigen::Vector3d& point) {
+  char text[64];
+  std::snprintf(text, sizeof text, "(%.1f, %.1f, %.1f)", point.x(), point.y(), point.z());
+  return text;
+}
 
 /// Full box before the tight one that flown edges are allowed. With the full box home comes first;
 /// with the tight one the nearest places on the trail, so that little is flown without margin.

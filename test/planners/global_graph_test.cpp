@@ -4,7 +4,6 @@
 
 #include "spelunk/common/contract.h"
 #include "spelunk/planners/gbplanner/global_search.h"
-#include "spelunk/planners/gbplanner/local_search.h"
 
 namespace spelunk::planners::gbplanner {
 namespace {

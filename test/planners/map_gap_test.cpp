@@ -25,29 +25,6 @@ test::GridWorld ringWithARoom() {
   return world;
 }
 
-bool isAtAir(const test::GridWorld& world, const Eigen::Vector3d& at) {
-  for (int axis = 0; axis < 3; ++axis)
-    for (const double side : {-kResolution, kResolution})
-      if (!world.isSolid(world.indexOf(at + side * Eigen::Vector3d::Unit(axis)))) return true;
-  return false;
-}
-
-/// The rock's surface, as scans would have hit it.
-void enterWalls(const test::GridWorld& world, map::OccupancyMap& map) {
-  const Eigen::Vector3d low = Eigen::Vector3d::Constant(0.5 * kResolution);
-  const Eigen::Vector3d high = world.bounds().max;
-  for (double z = low.z(); z < high.z(); z += kResolution)
-    for (double y = low.y(); y < high.y(); y += kResolution)
-      for (double x = low.x(); x < high.x(); x += kResolution) {
-        const Eigen::Vector3d centre(x, y, z);
-        if (!world.isSolid(world.indexOf(centre)) || !isAtAir(world, centre)) continue;
-        Scan hit;
-        hit.T_world_sensor.translation() = centre;
-        hit.points.emplace_back(0.01F, 0.0F, 0.0F);
-        map.insert(hit, {centre.array() + 10.0, centre.array() + 9.0});
-      }
-}
-
 /// Home at one side of the gap, then the vertices of the long way round to the frontier.
 PlannerGraph longWayRound() {
   PlannerGraph saved;
@@ -76,7 +53,7 @@ class GapOfTheMap : public ::testing::Test {
     params.resolution_m = kResolution;
     params.range_min_m = 0.0;
     map_ = std::make_unique<map::OccupancyMap>(params);
-    enterWalls(ringWithARoom(), *map_);
+    ringWithARoom().enterRock(*map_);
     for (const AxisAlignedBox& known :
          {AxisAlignedBox{{1.0, 1.0, 1.0}, {kGapBegin, 4.0, 4.0}},
           AxisAlignedBox{{kGapEnd, 1.0, 1.0}, {33.0, 4.0, 4.0}},

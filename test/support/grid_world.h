@@ -87,6 +87,12 @@ class GridWorld {
 
   /// Enters everything into a map at once: cells as they are, nothing left unknown.
   void enterInto(map::OccupancyMap& map) const {
+    enterRock(map);
+    map.markFree({bounds().min.array() + 1e-6, bounds().max.array() - 1e-6});
+  }
+
+  /// Enters the solid cells alone; all air stays unknown.
+  void enterRock(map::OccupancyMap& map) const {
     const double r = map.params().resolution_m;
     const Eigen::Vector3d low = Eigen::Vector3d::Constant(0.5 * r);
     for (double z = low.z(); z < bounds().max.z(); z += r)
@@ -99,7 +105,6 @@ class GridWorld {
           hit.points.emplace_back(0.01F, 0.0F, 0.0F);
           map.insert(hit, {centre.array() + 10.0, centre.array() + 9.0});
         }
-    map.markFree({bounds().min.array() + 1e-6, bounds().max.array() - 1e-6});
   }
 
  private:

@@ -6,7 +6,6 @@
 #include <set>
 
 #include "spelunk/planners/gbplanner/exploration_gain.h"
-#include "spelunk/planners/gbplanner/local_search.h"
 
 namespace spelunk::planners::gbplanner {
 namespace {

@@ -8,6 +8,10 @@
 
 namespace spelunk::planners::gbplanner {
 
+/// Once nothing reaches the thresholds g_e and frontier_gain_m3, places that promise this share of
+/// them are good enough.
+inline constexpr double kMinorShare = 0.25;
+
 /// Parameters of GBPlanner (section "gbplanner"). Symbols of Dang 2020 in brackets.
 struct GbPlannerParams {
   Eigen::Vector3d local_box_m{80.0, 80.0, 6.0};

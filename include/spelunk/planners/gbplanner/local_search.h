@@ -10,10 +10,6 @@
 
 namespace spelunk::planners::gbplanner {
 
-/// Once nothing reaches the thresholds g_e and frontier_gain_m3, places that promise this share of
-/// them are good enough.
-inline constexpr double kMinorShare = 0.25;
-
 /// What earlier plans leave to this one.
 struct LocalContext {
   const TriedTargets& tried;
