@@ -73,6 +73,12 @@ void shrinkDown(Rows& rows, int length) {
   }
 }
 
+/// From how far in its surroundings a chunk is computed, in blocks.
+struct Halo {
+  int sideways;
+  int upwards;
+};
+
 /// Works on the surroundings of one chunk at a time.
 class ChunkFilter {
  public:
@@ -84,6 +90,8 @@ class ChunkFilter {
         occupied_(free_.layers()),
         gaps_(free_.layers()),
         wide_(free_.layers()) {}
+
+  [[nodiscard]] Halo halo() const { return {kHalo / kBlockSide, halo_ / kBlockSide}; }
 
   /// The credible chunk at `key`; its masks are empty where nothing is known.
   [[nodiscard]] StatusChunk computeChunk(const FrozenMap::Blocks& blocks, PackedKey key) {
@@ -206,14 +214,49 @@ VoxelCounts countsOf(const StatusChunk& chunk) {
   return counts;
 }
 
-/// The chunks of `now` that differ from those of `before` and all around them, in a fixed order.
-std::vector<PackedKey> touchedChunks(const FrozenMap::Blocks& now,
-                                     const FrozenMap::Blocks& before) {
+/// Which chunks beside one its block at `place` (0 to 3) is part of the surroundings of: from..to.
+struct Sides {
+  int from;
+  int to;
+};
+Sides sidesOf(int place, int halo) {
+  constexpr int kBlocks = kChunkSide / kBlockSide;
+  return {place < halo ? -1 : 0, place >= kBlocks - halo ? 1 : 0};
+}
+
+bool differ(const StatusBlock& a, const StatusBlock& b) {
+  return a.known != b.known || a.occupied != b.occupied;
+}
+
+/// Marks the chunks around `now`, as a bit each of 27, that its changes since `before` matter to.
+std::uint32_t affectedAround(const StatusChunk& now, const StatusChunk& before, const Halo& halo) {
+  std::uint32_t affected = 0;
+  for (int slot = 0; slot < 64; ++slot) {
+    const auto number = static_cast<std::size_t>(slot);
+    if (!differ(now.blocks[number], before.blocks[number])) continue;
+    const Sides x = sidesOf(slot & 3, halo.sideways);
+    const Sides y = sidesOf((slot >> 2) & 3, halo.sideways);
+    const Sides z = sidesOf(slot >> 4, halo.upwards);
+    for (int k = z.from; k <= z.to; ++k)
+      for (int j = y.from; j <= y.to; ++j)
+        for (int i = x.from; i <= x.to; ++i) affected |= 1U << (13 + i + 3 * j + 9 * k);
+  }
+  return affected;
+}
+
+/// The chunks whose surroundings changed between two snapshots, in a fixed order.
+std::vector<PackedKey> touchedChunks(const FrozenMap::Blocks& now, const FrozenMap::Blocks& before,
+                                     const Halo& halo) {
+  const StatusChunk nothing;
   std::vector<PackedKey> touched;
   for (std::size_t i = 0; i < now.chunks.size(); ++i) {
-    if (i < before.chunks.size() && before.chunks[i] == now.chunks[i]) continue;
+    const bool is_new = i >= before.chunks.size();
+    if (!is_new && before.chunks[i] == now.chunks[i]) continue;
+    const std::uint32_t affected =
+        affectedAround(*now.chunks[i], is_new ? nothing : *before.chunks[i], halo);
     const VoxelIndex corner = unpackIndex(now.chunks[i]->key);
     for (int k = 0; k < 27; ++k) {
+      if (((affected >> k) & 1) == 0) continue;
       const VoxelIndex near =
           corner + kChunkSide * (VoxelIndex(k % 3, k / 3 % 3, k / 9) - VoxelIndex::Ones());
       if (isInKeyRange(near)) touched.push_back(packIndex(near));
@@ -250,7 +293,8 @@ struct CredibleMap::Impl {
     auto next = std::make_shared<FrozenMap::Blocks>(goes_on ? result->blocks() : nothing);
     auto table = std::make_shared<KeyTable>(*next->table);
     ChunkFilter filter = filterFor(map.resolution());
-    for (const PackedKey key : touchedChunks(map.blocks(), goes_on ? source->blocks() : nothing)) {
+    for (const PackedKey key : touchedChunks(map.blocks(), goes_on ? source->blocks() : nothing,
+                                             filter.halo())) {
       auto chunk = std::make_shared<StatusChunk>(filter.computeChunk(map.blocks(), key));
       const VoxelCounts counts = countsOf(*chunk);
       const std::uint32_t number = table->find(key);

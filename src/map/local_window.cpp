@@ -22,23 +22,29 @@ constexpr std::array<std::uint64_t, 256> spreadTable() {
 }
 constexpr std::array<std::uint64_t, 256> kSpread = spreadTable();
 
+/// What the cells held before a copy.
+enum class Cells { kUnknown, kOutdated };
+
 /// Copies a block's voxels that lie in the window; known + occupied is the status.
 class BlockCopier {
  public:
-  BlockCopier(const VoxelIndex& origin, const VoxelIndex& size, std::uint8_t* cells)
-      : origin_(origin), size_(size), cells_(cells) {}
+  BlockCopier(const VoxelIndex& origin, const VoxelIndex& size, Cells before, std::uint8_t* cells)
+      : origin_(origin), size_(size), before_(before), cells_(cells) {}
 
   void copy(const StatusBlock& block, const VoxelIndex& corner) {
-    if (block.known == Mask{}) return;
-    known_.min = known_.min.cwiseMin(corner);
-    known_.max = known_.max.cwiseMax(corner + VoxelIndex::Constant(kBlockSide - 1));
+    const bool is_unknown = block.known == Mask{};
+    if (is_unknown && before_ == Cells::kUnknown) return;
+    if (!is_unknown) {
+      known_.min = known_.min.cwiseMin(corner);
+      known_.max = known_.max.cwiseMax(corner + VoxelIndex::Constant(kBlockSide - 1));
+    }
     const VoxelIndex at = corner - origin_;
     const VoxelIndex first = (-at).cwiseMax(0);
     const VoxelIndex end = (size_ - at).cwiseMin(kBlockSide);
     for (int z = first.z(); z < end.z(); ++z) {
       const std::uint64_t known = block.known[static_cast<std::size_t>(z)];
       const std::uint64_t occupied = block.occupied[static_cast<std::size_t>(z)];
-      if (known == 0) continue;
+      if (known == 0 && before_ == Cells::kUnknown) continue;
       for (int y = first.y(); y < end.y(); ++y) {
         const std::size_t cell = offsetOf(at.x() + first.x(), at.y() + y, at.z() + z);
         copyRow((known >> (8 * y)) & 0xFF, (occupied >> (8 * y)) & 0xFF, first.x(), end.x(), cell);
@@ -69,6 +75,7 @@ class BlockCopier {
 
   VoxelIndex origin_;
   VoxelIndex size_;
+  Cells before_;
   std::uint8_t* cells_;
   Extent known_{VoxelIndex::Constant(1 << 30), VoxelIndex::Constant(-(1 << 30))};
 };
@@ -126,11 +133,33 @@ LocalWindow::LocalWindow(const FrozenMap& map, const AxisAlignedBox& region)
   cell_count_ = static_cast<std::size_t>(size.prod());
   cells_.reset(static_cast<std::uint8_t*>(std::calloc(cell_count_, 1)));
   if (cells_ == nullptr) throw std::bad_alloc();
-  BlockCopier copier(origin_, size_, cells_.get());
+  BlockCopier copier(origin_, size_, Cells::kUnknown, cells_.get());
   for (const StatusChunk* chunk : chunksIn(map.blocks(), origin_, last))
     copyChunk(*chunk, origin_, last, copier);
   known_first_ = copier.known().min;
   known_last_ = copier.known().max;
+}
+
+void LocalWindow::update(const FrozenMap& before, const FrozenMap& now) {
+  const auto& old_chunks = before.blocks().chunks;
+  const auto& chunks = now.blocks().chunks;
+  if (before.resolution() != now.resolution() || !isLaterThan(now.blocks(), before.blocks())) {
+    const Eigen::Vector3d half_voxel = Eigen::Vector3d::Constant(0.5 * resolution_m_);
+    const AxisAlignedBox box = region();
+    *this = LocalWindow(now, {box.min + half_voxel, box.max - half_voxel});
+    return;
+  }
+  const VoxelIndex last = origin_ + size_ - VoxelIndex::Ones();
+  BlockCopier copier(origin_, size_, Cells::kOutdated, cells_.get());
+  for (std::size_t i = 0; i < chunks.size(); ++i) {
+    if (i < old_chunks.size() && old_chunks[i] == chunks[i]) continue;
+    const VoxelIndex corner = unpackIndex(chunks[i]->key);
+    const bool is_outside = (corner.array() > last.array()).any() ||
+                            (corner.array() + kChunkSide <= origin_.array()).any();
+    if (!is_outside) copyChunk(*chunks[i], origin_, last, copier);
+  }
+  known_first_ = known_first_.cwiseMin(copier.known().min);
+  known_last_ = known_last_.cwiseMax(copier.known().max);
 }
 
 VoxelIndex LocalWindow::indexOf(const Eigen::Vector3d& point) const {

@@ -6,7 +6,7 @@
 
 #include "map_worlds.h"
 #include "spelunk/common/contract.h"
-#include "spelunk/map/local_window.h"
+#include "spelunk/map/kept_window.h"
 
 namespace spelunk::map {
 namespace {
@@ -132,6 +132,73 @@ TEST(LocalWindow, EqualsTheMapVoxelByVoxel) {
           ASSERT_EQ(window.at(index), is_inside ? view->at(index) : Occupancy::kUnknown);
         }
   }
+}
+
+/// Whether two windows say the same of every voxel around `region`.
+void expectSame(const LocalWindow& some, const LocalWindow& other, const AxisAlignedBox& region) {
+  const VoxelIndex first = some.indexOf(region.min);
+  const VoxelIndex last = some.indexOf(region.max);
+  for (int z = first.z(); z <= last.z(); ++z)
+    for (int y = first.y(); y <= last.y(); ++y)
+      for (int x = first.x(); x <= last.x(); ++x)
+        ASSERT_EQ(some.at(VoxelIndex(x, y, z)), other.at(VoxelIndex(x, y, z)))
+            << x << " " << y << " " << z;
+}
+
+TEST(LocalWindow, BroughtUpToDateIsThatOfTheNewMap) {
+  OccupancyMap map = hallMap(MapParams{}, 4, 300, 5);
+  const AxisAlignedBox region{{-9.3, -5.1, -1.7}, {8.2, 4.9, 2.6}};
+  auto before = map.freeze();
+  LocalWindow window(*before, region);
+  Rng rng(11);
+  for (int i = 0; i < 6; ++i) {
+    Scan scan;
+    scan.T_world_sensor = Eigen::Translation3d(rng.uniform(-8, 8), rng.uniform(-4, 4), 0.0) *
+                          Eigen::Quaterniond::Identity();
+    for (int k = 0; k < 200; ++k)  // through what was occupied and into what was free
+      scan.points.emplace_back(static_cast<float>(rng.uniform(-6, 6)),
+                               static_cast<float>(rng.uniform(-6, 6)),
+                               static_cast<float>(rng.uniform(-2, 2)));
+    map.insert(scan, noBody());
+    const auto now = map.freeze();
+    window.update(*before, *now);
+    const LocalWindow anew(*now, region);
+    expectSame(window, anew, region);
+    EXPECT_TRUE((window.knownFirst().array() <= anew.knownFirst().array()).all());
+    EXPECT_TRUE((window.knownLast().array() >= anew.knownLast().array()).all());
+    before = now;
+  }
+}
+
+TEST(LocalWindow, OfAnotherMapIsCopiedAnew) {
+  OccupancyMap map = hallMap(MapParams{}, 4, 300, 5);
+  const auto before = map.freeze();
+  const AxisAlignedBox region{{-9.3, -5.1, -1.7}, {8.2, 4.9, 2.6}};
+  LocalWindow window(*before, region);
+  OccupancyMap other = hallMap(MapParams{}, 1, 50, 9);
+  window.update(*before, *other.freeze());
+  expectSame(window, LocalWindow(*other.freeze(), region), region);
+}
+
+TEST(KeptWindow, FollowsAMovingRegionThroughAChangingMap) {
+  OccupancyMap map = hallMap(MapParams{}, 2, 300, 5);
+  KeptWindow kept({2.0, 1.0, 0.5});
+  int copied_anew = 0;
+  VoxelIndex origin = VoxelIndex::Zero();
+  for (int i = 0; i < 20; ++i) {
+    const double x = -8.0 + 0.7 * i;
+    map.markFree(boxAround({x, 0.3 * i - 3.0, 0.0}, {1.0, 1.0, 2.0}));
+    const auto now = map.freeze();
+    const AxisAlignedBox region{{x - 3.0, -4.0, -1.2}, {x + 3.0, 4.0, 1.4}};
+    const LocalWindow& window = kept.over(now, region);
+    copied_anew += window.origin() != origin ? 1 : 0;
+    origin = window.origin();
+    EXPECT_TRUE((window.region().min.array() <= region.min.array()).all());
+    EXPECT_TRUE((window.region().max.array() >= region.max.array()).all());
+    expectSame(window, LocalWindow(*now, region), region);
+  }
+  EXPECT_GE(copied_anew, 3);
+  EXPECT_LE(copied_anew, 10);
 }
 
 TEST(LocalWindow, RefusesRegionsItCannotHold) {

@@ -234,7 +234,9 @@ TEST(TiledGain, CountsWhatOneWindowRoundEverythingDoes) {
   const map::GainEvaluator evaluator(smallRobot().sensor_models, params.resolution_m,
                                      map::GainCounting::kCone);
   const AxisAlignedBox bounds{{-80.0, -80.0, -1.0}, {80.0, 80.0, 4.0}};
-  TiledGain tiled(*frozen, evaluator, bounds);
+  map::KeptWindow kept(Eigen::Vector3d(7.0, 3.0, 1.0));
+  TiledGain whole(frozen, evaluator, bounds, kept);
+  TiledGain tiled(frozen, evaluator, bounds, kept, 0.0);
   const AxisAlignedBox known = frozen->knownBounds();
   const Eigen::Vector3d reach(evaluator.reach(), evaluator.reach(), 0.25);
   const map::LocalWindow window(*frozen, {known.min - reach, known.max + reach});
@@ -244,9 +246,11 @@ TEST(TiledGain, CountsWhatOneWindowRoundEverythingDoes) {
                     rng.uniform(-3, 3)};
     const double once = evaluator.evaluate(window, pose.position, pose.yaw, bounds).unknown_m3;
     EXPECT_NEAR(tiled.visibleFrom(pose), once, 1e-6);
+    EXPECT_NEAR(whole.visibleFrom(pose), once, 1e-6);
     seeing += once > 0.0 ? 1 : 0;
   }
   EXPECT_GT(seeing, 100);
+  EXPECT_EQ(whole.tiles(), 0U);
   EXPECT_GT(tiled.tiles(), 4U);
   EXPECT_LE(tiled.tiles(), 16U);
 }

@@ -18,6 +18,10 @@ class LocalWindow {
   /// finite or larger than 2^31 voxels.
   LocalWindow(const FrozenMap& map, const AxisAlignedBox& region);
 
+  /// The same region of `now`: of a map that came from `before`, of which the window is a copy, by
+  /// changes only what changed is copied, of any other all of it.
+  void update(const FrozenMap& before, const FrozenMap& now);
+
   /// Outside the window: unknown.
   [[nodiscard]] Occupancy at(const VoxelIndex& index) const {
     // Unsigned, so that one comparison an axis covers both sides and nothing can overflow.
@@ -44,7 +48,7 @@ class LocalWindow {
   /// Indices of a box outside which every voxel is unknown; first > last if all are.
   [[nodiscard]] const VoxelIndex& knownFirst() const { return known_first_; }
   [[nodiscard]] const VoxelIndex& knownLast() const { return known_last_; }
-  [[nodiscard]] AxisAlignedBox region() const;
+  [[nodiscard]] AxisAlignedBox region() const;  ///< Around its voxels.
 
   [[nodiscard]] std::size_t offsetOf(const VoxelIndex& local) const {
     return static_cast<std::size_t>(local.x()) +

@@ -16,6 +16,8 @@ namespace spelunk::planners::baselines {
 namespace {
 
 constexpr int kSamplesBetweenClockReads = 64;
+/// As far as the known part grows in some plans.
+const Eigen::Vector3d kWindowSlack_m(25.0, 25.0, 1.0);
 constexpr double kSamePlace_m = 0.1;  // what is left of a shorter edge is none
 
 bool seesAllAround(const RobotModel& robot) {
@@ -81,7 +83,8 @@ struct NbvpPlanner::Search {
 
   /// The root and what is left of the best branch of the last tree, its gains counted anew.
   void plantTree() {
-    gains.emplace(*planner.credible_.of(request.map), planner.evaluator_, request.bounds);
+    gains.emplace(planner.credible_.of(request.map), planner.evaluator_, request.bounds,
+                  planner.window_);
     tree.emplace(root, params.distance_weight);
     std::size_t last = 0;
     for (const Pose& pose : branchAhead()) {
@@ -244,6 +247,7 @@ NbvpPlanner::NbvpPlanner(const NbvpParams& params, const RobotModel& robot, doub
       robot_(robot),
       evaluator_(robot.sensor_models, resolution_m, map::GainCounting::kCone, params.cone_depth_m),
       credible_({params.closing_height_m, params.growth_m}),
+      window_(kWindowSlack_m),
       boxes_(robot.box_m),
       tried_(params.tried_radius_m) {}
 
@@ -281,6 +285,7 @@ void NbvpPlanner::restore(const PlannerGraph& graph) {
 
 void NbvpPlanner::reset() {
   credible_ = map::CredibleMap({params_.closing_height_m, params_.growth_m});
+  window_.forget();
   trail_ = {};
   tried_ = TriedTargets(params_.tried_radius_m);
   branch_.clear();

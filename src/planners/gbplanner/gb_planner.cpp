@@ -20,6 +20,9 @@ namespace {
 using graph::Polyline;
 using graph::VertexId;
 
+/// As far as a robot gets in some plans; upwards as much as a map grows on the way.
+const Eigen::Vector3d kWindowSlack_m(15.0, 15.0, 1.0);
+
 GlobalGraphLimits limitsFrom(const GbPlannerParams& params) {
   GlobalGraphLimits limits;
   limits.connect_radius_m = params.global_radius_m;
@@ -45,10 +48,11 @@ struct GbPlanner::Search {
   Search(GbPlanner& owner, const PlanRequest& asked)
       : planner(owner),
         request(asked),
-        view(asked, owner.robot_, owner.params_, owner.evaluator_, {owner.body_, owner.roomy_}) {}
+        view(asked, owner.robot_, owner.params_, owner.evaluator_, {owner.body_, owner.roomy_},
+             owner.window_) {}
 
-  [[nodiscard]] const map::FrozenMap& credible() const {
-    return *planner.credible_.of(request.map);
+  [[nodiscard]] std::shared_ptr<const map::FrozenMap> credible() const {
+    return planner.credible_.of(request.map);
   }
 
   void noteOutcome() {
@@ -142,7 +146,7 @@ struct GbPlanner::Search {
                       [this](const Eigen::Vector3d& at) {
                         if (wasVisited(request.trail, at, planner.params_.visited_radius_m))
                           return 0.0;
-                        return gainAnywhere(request, credible(), planner.evaluator_, at,
+                        return gainAnywhere(request, *credible(), planner.evaluator_, at,
                                             request.pose.yaw);
                       }};
     if (with_presumed_ways && !presumed)
@@ -309,6 +313,7 @@ GbPlanner::GbPlanner(const GbPlannerParams& params, const RobotModel& robot, dou
                  params.count_cones ? map::GainCounting::kCone : map::GainCounting::kPerRay,
                  params.cone_depth_m),
       credible_({params.closing_height_m, params.growth_m}),
+      window_(kWindowSlack_m),
       body_(robot.box_m),
       roomy_(robot.box_m + 2.0 * params.safety_margin_m),
       global_(limitsFrom(params)),
@@ -362,6 +367,7 @@ void GbPlanner::reset() {
   trail_known_until_s_ = -std::numeric_limits<double>::infinity();
   checked_map_.reset();
   closed_.clear();
+  window_.forget();
   local_layer_ = {};
 }
 

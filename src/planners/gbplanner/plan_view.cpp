@@ -36,12 +36,13 @@ Eigen::Vector3d gainMargin(const map::GainEvaluator& evaluator) {
 
 PlanView::PlanView(const PlanRequest& request, const RobotModel& robot,
                    const GbPlannerParams& params, const map::GainEvaluator& evaluator,
-                   const BodySpaces& bodies)
+                   const BodySpaces& bodies, map::KeptWindow& window)
     : request_(request),
       evaluator_(evaluator),
       visited_radius_m_(params.visited_radius_m),
       local_box_(
           intersection(boxAround(request.pose.position, params.local_box_m), request.bounds)),
+      window_(window),
       space_([&exact = bodies.exact](const Eigen::Vector3d& a,
                                      const Eigen::Vector3d& b) { return exact.sweep(a, b); },
              robot.box_m, request.bounds, request.zones, groundUnder(*request.map, robot)),
@@ -52,17 +53,19 @@ PlanView::PlanView(const PlanRequest& request, const RobotModel& robot,
   bodies.roomy.use(request.map);
 }
 
-void PlanView::prepareGains(const map::FrozenMap& credible) {
-  if (credible_) return;
-  credible_.emplace(credible,
-                    knownPart(grown(local_box_, gainMargin(evaluator_)), *request_.map,
-                              request_.pose.position, rayMargin(evaluator_, *request_.map)));
+void PlanView::prepareGains(const std::shared_ptr<const map::FrozenMap>& credible) {
+  if (credible_ != nullptr) return;
+  const AxisAlignedBox region = map::roundedOut(
+      *credible, knownPart(grown(local_box_, gainMargin(evaluator_)), *request_.map,
+                           request_.pose.position, rayMargin(evaluator_, *request_.map)));
+  credible_ = &window_.over(credible, region);
+  gain_bounds_ = intersection(region, request_.bounds);
 }
 
 double PlanView::gainAt(const Eigen::Vector3d& position, double yaw) const {
-  require(credible_.has_value(), "PlanView: prepareGains was not called");
+  require(credible_ != nullptr, "PlanView: prepareGains was not called");
   if (wasVisited(request_.trail, position, visited_radius_m_)) return 0.0;
-  return evaluator_.evaluate(*credible_, position, yaw, request_.bounds).unknown_m3;
+  return evaluator_.evaluate(*credible_, position, yaw, gain_bounds_).unknown_m3;
 }
 
 double gainAnywhere(const PlanRequest& request, const map::FrozenMap& credible,

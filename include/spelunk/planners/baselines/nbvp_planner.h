@@ -5,6 +5,7 @@
 #include "spelunk/common/robot_model.h"
 #include "spelunk/map/configuration_space.h"
 #include "spelunk/map/credible_map.h"
+#include "spelunk/map/kept_window.h"
 #include "spelunk/map/volumetric_gain.h"
 #include "spelunk/planners/baselines/nbvp_params.h"
 #include "spelunk/planners/exploration_planner.h"
@@ -51,6 +52,7 @@ class NbvpPlanner final : public ExplorationPlanner {
   RobotModel robot_;
   map::GainEvaluator evaluator_;
   map::CredibleMap credible_;
+  map::KeptWindow window_;  ///< Of the credible map.
   map::ConfigurationSpace boxes_;
   TrailHome trail_;
   TriedTargets tried_;

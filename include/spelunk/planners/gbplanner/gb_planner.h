@@ -7,6 +7,7 @@
 #include "spelunk/common/robot_model.h"
 #include "spelunk/map/configuration_space.h"
 #include "spelunk/map/credible_map.h"
+#include "spelunk/map/kept_window.h"
 #include "spelunk/map/presumed_ways.h"
 #include "spelunk/map/volumetric_gain.h"
 #include "spelunk/planners/exploration_planner.h"
@@ -49,6 +50,7 @@ class GbPlanner final : public ExplorationPlanner {
   RobotModel robot_;
   map::GainEvaluator evaluator_;
   map::CredibleMap credible_;
+  map::KeptWindow window_;  ///< Of the credible map.
   map::ConfigurationSpace body_;
   map::ConfigurationSpace roomy_;  ///< With the safety margin.
   GlobalGraph global_;

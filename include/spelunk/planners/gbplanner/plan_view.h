@@ -1,10 +1,10 @@
 #pragma once
 
-#include <optional>
+#include <memory>
 
 #include "spelunk/common/robot_model.h"
 #include "spelunk/map/configuration_space.h"
-#include "spelunk/map/local_window.h"
+#include "spelunk/map/kept_window.h"
 #include "spelunk/map/volumetric_gain.h"
 #include "spelunk/planners/exploration_planner.h"
 #include "spelunk/planners/gbplanner/gb_planner_params.h"
@@ -23,8 +23,9 @@ struct BodySpaces {
 /// arguments, which must outlive it.
 class PlanView {
  public:
+  /// `window` is kept by the planner from plan to plan, too.
   PlanView(const PlanRequest& request, const RobotModel& robot, const GbPlannerParams& params,
-           const map::GainEvaluator& evaluator, const BodySpaces& bodies);
+           const map::GainEvaluator& evaluator, const BodySpaces& bodies, map::KeptWindow& window);
   PlanView(const PlanView&) = delete;  // its free spaces refer to what it was made of
   PlanView& operator=(const PlanView&) = delete;
 
@@ -33,7 +34,7 @@ class PlanView {
   [[nodiscard]] const FreeSpace& space() const { return space_; }
   [[nodiscard]] const FreeSpace& roomySpace() const { return roomy_space_; }
   /// Makes what gainAt() reads; call once before it.
-  void prepareGains(const map::FrozenMap& credible);
+  void prepareGains(const std::shared_ptr<const map::FrozenMap>& credible);
   /// VolumetricGain at a position of the local box, over credible unknown voxels only; none where
   /// the robot has been; m3.
   [[nodiscard]] double gainAt(const Eigen::Vector3d& position, double yaw) const;
@@ -43,7 +44,9 @@ class PlanView {
   const map::GainEvaluator& evaluator_;
   double visited_radius_m_;
   AxisAlignedBox local_box_;
-  std::optional<map::LocalWindow> credible_;
+  map::KeptWindow& window_;
+  const map::LocalWindow* credible_ = nullptr;
+  AxisAlignedBox gain_bounds_;  ///< Rays end there.
   FreeSpace space_;
   FreeSpace roomy_space_;
 };
