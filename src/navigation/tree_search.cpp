@@ -6,6 +6,7 @@
 #include <ompl/base/ProblemDefinition.h>
 #include <ompl/base/SpaceInformation.h>
 #include <ompl/base/StateSampler.h>
+#include <ompl/base/objectives/PathLengthOptimizationObjective.h>
 #include <ompl/base/spaces/RealVectorStateSpace.h>
 #include <ompl/base/terminationconditions/IterationTerminationCondition.h>
 #include <ompl/geometric/PathGeometric.h>
@@ -27,6 +28,7 @@ namespace og = ompl::geometric;
 constexpr unsigned kShortcutSteps = 120;
 constexpr unsigned kShortcutMisses = 40;
 constexpr double kStarSteps = 4.0;  // RRT* rewires no farther than it steps
+constexpr double kNearlyStraight = 1.05;  // no way of RRT* is worth looking for a shorter one
 constexpr double kRim_m = 1e-3;     // states on the region's faces are inside for OMPL too
 constexpr int kStartTreeTag = 1;    // OMPL's, of vertices that grew from the start
 
@@ -137,6 +139,11 @@ struct Search {
   TreeResult run() {
     auto problem = std::make_shared<ob::ProblemDefinition>(info);
     problem->setStartAndGoalStates(stateAt(task.start), stateAt(task.goal));
+    if (task.kind == TreeKind::kStar) {
+      auto length = std::make_shared<ob::PathLengthOptimizationObjective>(info);
+      length->setCostThreshold(ob::Cost(kNearlyStraight * (task.goal - task.start).norm()));
+      problem->setOptimizationObjective(length);
+    }
     const ob::PlannerPtr planner = makePlanner();
     planner->setProblemDefinition(problem);
     planner->setup();

@@ -35,7 +35,7 @@ struct NavigationParams {
     field("extension_m", extension_m, Bounds{0.2, 20.0},
           "longest step of a tree; rrt_star takes four times this");
     field("iterations", iterations, Bounds{1, 10000000},
-          "tree extensions tried at most; rrt_star uses them all");
+          "tree extensions tried at most; rrt_star uses them all unless its way is straight");
     field("planning_time_s", planning_time_s, Bounds{0.01, 1000.0},
           "longest wall time of one query in flight; lockstep counts iterations only");
   }
@@ -116,8 +116,8 @@ struct NavigationAnswer {
 /// with both, which the paper does not have: a stronger thing to compare with.
 ///
 /// "rrt_star" searches where "adaptive" does, by RRT* (Karaman and Frazzoli, IJRR 2011): its one
-/// tree is rewired until the iterations are used up, so that ways come near to the shortest, at
-/// many times the cost.
+/// tree is rewired until the iterations are used up or the way is hardly longer than a straight
+/// line, so that ways come near to the shortest, at many times the cost.
 ///
 /// Paths are shortened by OMPL's path simplification under the same rules as the search. The same
 /// query gives the same answer, unless its time limit cuts it short. Keeps what it
