@@ -52,7 +52,8 @@ def new_axes(columns=1, width=7.4, height=4.3):
 
 
 def finish(figure, path):
-    figure.savefig(path, dpi=DPI)
+    """Writes the figure, cut to what is drawn: labels beside a map in equal scales stay whole."""
+    figure.savefig(path, dpi=DPI, bbox_inches="tight", pad_inches=0.08)
     plt.close(figure)
     return path
 
