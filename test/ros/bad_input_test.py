@@ -142,8 +142,8 @@ class BadInput(unittest.TestCase):
         self.assertGreaterEqual(self.status.latest().explored_volume_m3, before)
 
     def test_e_a_jump_of_metres_is_said(self):
-        """The mission starts among the jumps, after a second of them that nothing else is said of; in so
-        small a room it ends before later ones."""
+        """The mission starts among the jumps, after a second of them in which nothing else is said;
+        in so small a room it ends before later ones."""
         since_status, since_log = self.status.count(), self.log.count()
         hops = 0
 

@@ -18,8 +18,8 @@ class LocalWindow {
   /// finite or larger than 2^31 voxels.
   LocalWindow(const FrozenMap& map, const AxisAlignedBox& region);
 
-  /// The same region of `now`: of a map that came from `before`, of which the window is a copy, by
-  /// changes only what changed is copied, of any other all of it.
+  /// Makes it a copy of the same region of `now`. It must be one of `before`: if `now` came from that
+  /// by changes, only what changed is copied.
   void update(const FrozenMap& before, const FrozenMap& now);
 
   /// Outside the window: unknown.
