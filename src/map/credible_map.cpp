@@ -293,8 +293,8 @@ struct CredibleMap::Impl {
     auto next = std::make_shared<FrozenMap::Blocks>(goes_on ? result->blocks() : nothing);
     auto table = std::make_shared<KeyTable>(*next->table);
     ChunkFilter filter = filterFor(map.resolution());
-    for (const PackedKey key : touchedChunks(map.blocks(), goes_on ? source->blocks() : nothing,
-                                             filter.halo())) {
+    for (const PackedKey key :
+         touchedChunks(map.blocks(), goes_on ? source->blocks() : nothing, filter.halo())) {
       auto chunk = std::make_shared<StatusChunk>(filter.computeChunk(map.blocks(), key));
       const VoxelCounts counts = countsOf(*chunk);
       const std::uint32_t number = table->find(key);

@@ -27,10 +27,10 @@ namespace og = ompl::geometric;
 
 constexpr unsigned kShortcutSteps = 120;
 constexpr unsigned kShortcutMisses = 40;
-constexpr double kStarSteps = 4.0;  // RRT* rewires no farther than it steps
+constexpr double kStarSteps = 4.0;        // RRT* rewires no farther than it steps
 constexpr double kNearlyStraight = 1.05;  // no way of RRT* is worth looking for a shorter one
-constexpr double kRim_m = 1e-3;     // states on the region's faces are inside for OMPL too
-constexpr int kStartTreeTag = 1;    // OMPL's, of vertices that grew from the start
+constexpr double kRim_m = 1e-3;           // states on the region's faces are inside for OMPL too
+constexpr int kStartTreeTag = 1;          // OMPL's, of vertices that grew from the start
 
 Eigen::Vector3d positionOf(const ob::State* state) {
   const double* values = state->as<ob::RealVectorStateSpace::StateType>()->values;

@@ -18,8 +18,8 @@ class LocalWindow {
   /// finite or larger than 2^31 voxels.
   LocalWindow(const FrozenMap& map, const AxisAlignedBox& region);
 
-  /// Makes it a copy of the same region of `now`. It must be one of `before`: if `now` came from that
-  /// by changes, only what changed is copied.
+  /// Makes it a copy of the same region of `now`. It must be one of `before`: if `now` came from
+  /// that by changes, only what changed is copied.
   void update(const FrozenMap& before, const FrozenMap& now);
 
   /// Outside the window: unknown.

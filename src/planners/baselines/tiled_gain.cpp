@@ -15,9 +15,8 @@ double inVoxels(double metres, double resolution_m) {
 
 }  // namespace
 
-TiledGain::TiledGain(std::shared_ptr<const map::FrozenMap> map,
-                     const map::GainEvaluator& evaluator, const AxisAlignedBox& bounds,
-                     map::KeptWindow& window, double cells_max)
+TiledGain::TiledGain(std::shared_ptr<const map::FrozenMap> map, const map::GainEvaluator& evaluator,
+                     const AxisAlignedBox& bounds, map::KeptWindow& window, double cells_max)
     : map_(std::move(map)),
       evaluator_(evaluator),
       bounds_(bounds),
