@@ -7,10 +7,15 @@ an orienteering problem whose prize is a volume that many outlooks share. It beg
 that are worth most a metre of detour. Then, again and again, a part of the tour is given up, the
 rest is ordered anew by the routing solver of OR-tools, and what this leaves of the way is spent on
 the detours that are worth most now (ruin and recreate). Of all tours that are home in time the one
-that sees most is kept. The same survey gives the same tour.
+that sees most is kept. A robot that comes home for sure relies on no way that it has not flown: from
+every outlook of the tour the way home along what was flown until then must fit, too. The same survey
+gives the same tour.
 """
 import argparse
+import collections
+import heapq
 import json
+import math
 import pathlib
 import random
 import sys
@@ -25,6 +30,7 @@ WORTH_SHARE = 0.0003            # of all there is to see; less is no reason to f
 EXPONENTS = (0.7, 1.0, 1.5, 2.0)  # of the gain, against the detour
 ROUNDS = 100
 GIVEN_UP = (0.05, 0.35)         # share of the stops, least and most
+REFUSALS = 12                   # of detours from which it would be too far home, until no more are tried
 TOLERANCE = 0.004               # of the best volume; a tour that sees so much less may lead on
 SEED = 1
 SPEED_SHARE = 0.85              # of full speed, corners and all
@@ -45,18 +51,62 @@ def detours(tour):
     return legs[:-1] + legs[1:] - metres[stops[:-1], stops[1:]][:, None]
 
 
+class FlownWays:
+    """The ways between outlooks that were flown, and how far it is home along them."""
+
+    def __init__(self):
+        self.home, self.legs = {0: 0.0}, collections.defaultdict(dict)
+
+    def add(self, start, end, metres):
+        """From an outlook that was reached to the next."""
+        self.legs[start][end] = self.legs[end][start] = metres
+        shortened = [(self.home[start] + metres, end)]
+        if end in self.home:
+            shortened.append((self.home[end] + metres, start))
+        while shortened:
+            far, outlook = heapq.heappop(shortened)
+            if far >= self.home.get(outlook, math.inf):
+                continue
+            self.home[outlook] = far
+            for other, leg in self.legs[outlook].items():
+                heapq.heappush(shortened, (far + leg, other))
+
+
+def commitment(survey, stops):
+    """The longest that, anywhere on a tour, what was flown and the way home along it are; m."""
+    ways, flown, longest = FlownWays(), 0.0, 0.0
+    outlooks = survey.passed(stops)
+    for start, end in zip(outlooks, outlooks[1:]):
+        metres = float(survey.metres[start, end])
+        flown += metres
+        ways.add(start, end, metres)
+        longest = max(longest, flown + ways.home[end])
+    return longest
+
+
+def is_safe(survey, stops, budget_m):
+    """Whether a tour, flown forth or back, leaves time at each outlook for the way home it knows."""
+    return commitment(survey, stops) <= budget_m or commitment(survey, stops[::-1]) <= budget_m
+
+
 def extend(tour, budget_m, exponent):
     """Adds the detours that are worth most a metre, as many as fit."""
-    while True:
+    refused = []
+    while len(refused) < REFUSALS:
         every = detours(tour)
         extra = every.min(axis=0)
         fits = worth_flying(tour, tour.gains) & (tour.length + extra <= budget_m)
+        fits[refused] = False
         if not fits.any():
             return
         worth = np.where(fits, np.maximum(tour.gains, 0.0) ** exponent / np.maximum(extra, 0.1), -1)
         best = int(np.argmax(worth))
         place = int(np.argmin(every[:, best])) + 1
-        tour.follow(tour.stops[:place] + [best] + tour.stops[place:])
+        longer = tour.stops[:place] + [best] + tour.stops[place:]
+        if is_safe(tour.survey, longer, budget_m):
+            tour.follow(longer)
+        else:
+            refused.append(best)
 
 
 def drop_idle(tour):
@@ -111,9 +161,11 @@ def ordered(survey, stops, metaheuristic):
     return found if survey.length(found) <= survey.length(stops) else stops
 
 
-def reorder(tour, metaheuristic):
-    """The same stops in a shorter order."""
-    tour.follow(ordered(tour.survey, tour.stops, metaheuristic))
+def reorder(tour, budget_m, metaheuristic):
+    """The same stops in a shorter order, if that is safe."""
+    shorter = ordered(tour.survey, tour.stops, metaheuristic)
+    if is_safe(tour.survey, shorter, budget_m):
+        tour.follow(shorter)
 
 
 def begun(survey, budget_m):
@@ -122,7 +174,7 @@ def begun(survey, budget_m):
     for exponent in EXPONENTS:
         tour = Tour(survey)
         extend(tour, budget_m, exponent)
-        reorder(tour, Search.GREEDY_DESCENT)
+        reorder(tour, budget_m, Search.GREEDY_DESCENT)
         extend(tour, budget_m, exponent)
         found.append(tour)
     return max(found, key=lambda tour: tour.volume)
@@ -130,15 +182,17 @@ def begun(survey, budget_m):
 
 def improved(tour, budget_m):
     """The best tour that ruin and recreate finds from this one."""
-    rng = random.Random(SEED)
+    rng, survey = random.Random(SEED), tour.survey
     best = current = tour
     for _ in range(ROUNDS):
         trial = current.copy()
         give_up(trial, rng)
         extend(trial, budget_m, EXPONENTS[int(rng.random() * len(EXPONENTS))])
         drop_idle(trial)
-        reorder(trial, Search.GREEDY_DESCENT)
+        reorder(trial, budget_m, Search.GREEDY_DESCENT)
         extend(trial, budget_m, 1.0)
+        if not is_safe(survey, trial.stops, budget_m):
+            continue
         if trial.volume >= (1.0 - TOLERANCE) * best.volume:
             current = trial
         if (trial.volume, -trial.length) > (best.volume, -best.length):
@@ -165,8 +219,9 @@ def budget(survey, time_limit_s, speed_share):
 def lay_out(survey, budget_m):
     """The best tour found that is no longer than that, in the direction that sees earlier."""
     tour = improved(begun(survey, budget_m), budget_m)
-    forth, back = tour.stops, tour.stops[::-1]
-    tour.follow(max(forth, back, key=lambda stops: earliness(survey, stops)))
+    safe = [stops for stops in (tour.stops, tour.stops[::-1])
+            if commitment(survey, stops) <= budget_m]
+    tour.follow(max(safe, key=lambda stops: earliness(survey, stops)))
     return tour
 
 

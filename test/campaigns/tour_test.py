@@ -127,6 +127,23 @@ class Tours(TourTest):
             mine.volumes = volumes
             self.assertEqual(self.tour(mine, 100.0)[0][1], first)
 
+    def test_it_never_relies_on_a_way_home_that_it_has_not_flown(self):
+        ring = [(10.0 * math.sin(angle), 10.0 - 10.0 * math.cos(angle), 1.0)
+                for angle in (2.0 * math.pi * k / 12 for k in range(12))]
+        ring[0] = START
+        mine = Mine(0, [])
+        mine.outlooks, mine.volumes = ring, [10.0] * 12
+        mine.pairs = [(k, (k + 1) % 12) for k in range(12)]
+        mine.seen = [[k] for k in range(12)]
+        side_m = math.dist(ring[0], ring[1])
+        # Round it would be home in time, but half way round the way back is all that it knows.
+        points, said = self.tour(mine, 13.5 * side_m)
+        self.assertEqual(len(set(points)), 7)
+        self.assertAlmostEqual(said["seen_m3"], 70.0, delta=0.01)
+        points, said = self.tour(mine, 22.5 * side_m)
+        self.assertEqual(len(set(points)), 12)
+        self.assertAlmostEqual(said["length_m"], 12 * side_m, delta=0.01)
+
     def test_outlooks_that_no_way_leads_to_are_left_out(self):
         mine = Mine(20, [(10, 8, 50.0), (20, 8, 5000.0)])
         mine.pairs.pop()
