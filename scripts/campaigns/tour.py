@@ -7,9 +7,9 @@ an orienteering problem whose prize is a volume that many outlooks share. It beg
 that are worth most a metre of detour. Then, again and again, a part of the tour is given up, the
 rest is ordered anew by the routing solver of OR-tools, and what this leaves of the way is spent on
 the detours that are worth most now (ruin and recreate). Of all tours that are home in time the one
-that sees most is kept. A robot that comes home for sure relies on no way that it has not flown: from
-every outlook of the tour the way home along what was flown until then must fit, too. The same survey
-gives the same tour.
+that sees most is kept. A robot that comes home for sure relies on no way that it has not flown:
+from every outlook of the tour the way home along what was flown until then must fit, too. The same
+survey gives the same tour.
 """
 import argparse
 import collections
@@ -30,7 +30,7 @@ WORTH_SHARE = 0.0003            # of all there is to see; less is no reason to f
 EXPONENTS = (0.7, 1.0, 1.5, 2.0)  # of the gain, against the detour
 ROUNDS = 100
 GIVEN_UP = (0.05, 0.35)         # share of the stops, least and most
-REFUSALS = 12                   # of detours from which it would be too far home, until no more are tried
+REFUSALS = 12                   # of detours from which it is too far home; then no more are tried
 TOLERANCE = 0.004               # of the best volume; a tour that sees so much less may lead on
 SEED = 1
 SPEED_SHARE = 0.85              # of full speed, corners and all
