@@ -5,7 +5,9 @@
 DIR gets bound.csv and the survey (executable best_possible), tour_points.csv (OR-tools), flight/
 (planner oracle over these points) and tour.csv: t_s, explored_m3 of that flight. Before the flight
 nobody knows how fast the robot is along the tour, so a tour that leaves time unused, or that is not
-over in time, is laid out again with the speed that was flown; the flight that explored most stays.
+over in time, is laid out again with the speed that was flown; nor whether it sees the end of a loop
+before it must turn back, so tours with and without such loops are flown. The flight that explored
+most stays.
 DIR appears when it is complete. What failed stands in its outcome.json, and the log beside it.
 """
 import argparse
@@ -22,7 +24,8 @@ import time
 from campaigns import fly
 from campaigns.description import number_text
 
-LAYOUTS = 3             # at most
+LAYOUTS = 3             # at most, of a kind
+WAYS_HOME = ("flown", "any")  # that tours rely on: the kinds
 FIRST_SPEED_SHARE = 0.85
 SLOWER = 0.93           # at least, where a tour was not over in time
 FASTER = 1.6            # at most in one step
@@ -89,11 +92,11 @@ def survey(options, folder):
          folder, STEP_LIMIT_S)
 
 
-def lay_out(options, survey_folder, out, speed_share):
+def lay_out(options, survey_folder, out, speed_share, way_home):
     """What tour.json says of the tour."""
     step([options.tour_python, "-m", "campaigns.tour", survey_folder, "--out", out,
           "--time-limit-s", number_text(options.time_limit_s), "--speed-share",
-          f"{speed_share:.4f}"], survey_folder, STEP_LIMIT_S)
+          f"{speed_share:.4f}", "--way-home", way_home], survey_folder, STEP_LIMIT_S)
     return json.loads((out / "tour.json").read_text())
 
 
@@ -125,21 +128,23 @@ def rank(summary):
 
 def best_flight(options, folder):
     """Lays out and flies until that is worth it no more; the best summary, its files in place."""
-    speed_share, best = FIRST_SPEED_SHARE, None
+    best = None
     kept, attempt = folder / ".best", folder / ".attempt"
-    for _ in range(LAYOUTS):
-        attempt.mkdir()
-        tour = lay_out(options, folder, attempt, speed_share)
-        summary = flight_of(options, attempt, folder)
-        worse = attempt
-        if best is None or rank(summary) > rank(best):
-            best, worse = summary, kept
-        shutil.rmtree(worse, ignore_errors=True)
-        if worse is kept:
-            attempt.rename(kept)
-        speed_share = corrected_share(tour, summary, speed_share)
-        if speed_share is None:
-            break
+    for way_home in WAYS_HOME:
+        speed_share = FIRST_SPEED_SHARE
+        for _ in range(LAYOUTS):
+            attempt.mkdir()
+            tour = lay_out(options, folder, attempt, speed_share, way_home)
+            summary = flight_of(options, attempt, folder)
+            worse = attempt
+            if best is None or rank(summary) > rank(best):
+                best, worse = summary, kept
+            shutil.rmtree(worse, ignore_errors=True)
+            if worse is kept:
+                attempt.rename(kept)
+            speed_share = corrected_share(tour, summary, speed_share)
+            if speed_share is None:
+                break
     for path in list(kept.iterdir()):
         path.rename(folder / path.name)
     kept.rmdir()

@@ -1,15 +1,18 @@
 """Lays out a tour through a world that is known: which outlooks, in which order.
 
     python3 -m campaigns.tour FOLDER --time-limit-s T [--out DIR] [--speed-share S]
+                             [--way-home {flown,any}]
 
 Reads survey.json and survey_seen.bin, writes tour_points.csv (x_m,y_m,z_m) and tour.json. This is
 an orienteering problem whose prize is a volume that many outlooks share. It begins with the outlooks
 that are worth most a metre of detour. Then, again and again, a part of the tour is given up, the
 rest is ordered anew by the routing solver of OR-tools, and what this leaves of the way is spent on
 the detours that are worth most now (ruin and recreate). Of all tours that are home in time the one
-that sees most is kept. A robot that comes home for sure relies on no way that it has not flown:
-from every outlook of the tour the way home along what was flown until then must fit, too. The same
-survey gives the same tour.
+that sees most is kept. The same survey gives the same tour.
+
+With --way-home flown the robot relies on no way that it has not flown: from every outlook of the
+tour the way home along what was flown until then must fit, too. With any it may hope to see the
+rest of its tour before it needs it.
 """
 import argparse
 import collections
@@ -84,18 +87,28 @@ def commitment(survey, stops):
     return longest
 
 
-def is_safe(survey, stops, budget_m):
-    """Whether a tour, flown forth or back, leaves time at each outlook for the way home it knows."""
-    return commitment(survey, stops) <= budget_m or commitment(survey, stops[::-1]) <= budget_m
+class Budget:
+    """How long a tour may be, and how far its robot may be from home by the ways it knows; m."""
+
+    def __init__(self, metres, is_home_flown):
+        self.metres, self.commitment = metres, metres if is_home_flown else math.inf
+
+    def allows(self, survey, stops):
+        """Whether each outlook leaves time for the way home that is known there."""
+        return math.isinf(self.commitment) or commitment(survey, stops) <= self.commitment
+
+    def allows_either(self, survey, stops):
+        """The same, forth or back."""
+        return self.allows(survey, stops) or self.allows(survey, stops[::-1])
 
 
-def extend(tour, budget_m, exponent):
+def extend(tour, budget, exponent):
     """Adds the detours that are worth most a metre, as many as fit."""
     refused = []
     while len(refused) < REFUSALS:
         every = detours(tour)
         extra = every.min(axis=0)
-        fits = worth_flying(tour, tour.gains) & (tour.length + extra <= budget_m)
+        fits = worth_flying(tour, tour.gains) & (tour.length + extra <= budget.metres)
         fits[refused] = False
         if not fits.any():
             return
@@ -103,7 +116,7 @@ def extend(tour, budget_m, exponent):
         best = int(np.argmax(worth))
         place = int(np.argmin(every[:, best])) + 1
         longer = tour.stops[:place] + [best] + tour.stops[place:]
-        if is_safe(tour.survey, longer, budget_m):
+        if budget.allows_either(tour.survey, longer):
             tour.follow(longer)
         else:
             refused.append(best)
@@ -161,37 +174,37 @@ def ordered(survey, stops, metaheuristic):
     return found if survey.length(found) <= survey.length(stops) else stops
 
 
-def reorder(tour, budget_m, metaheuristic):
+def reorder(tour, budget, metaheuristic):
     """The same stops in a shorter order, if that is safe."""
     shorter = ordered(tour.survey, tour.stops, metaheuristic)
-    if is_safe(tour.survey, shorter, budget_m):
+    if budget.allows_either(tour.survey, shorter):
         tour.follow(shorter)
 
 
-def begun(survey, budget_m):
+def begun(survey, budget):
     """The best of some greedy tours."""
     found = []
     for exponent in EXPONENTS:
         tour = Tour(survey)
-        extend(tour, budget_m, exponent)
-        reorder(tour, budget_m, Search.GREEDY_DESCENT)
-        extend(tour, budget_m, exponent)
+        extend(tour, budget, exponent)
+        reorder(tour, budget, Search.GREEDY_DESCENT)
+        extend(tour, budget, exponent)
         found.append(tour)
     return max(found, key=lambda tour: tour.volume)
 
 
-def improved(tour, budget_m):
+def improved(tour, budget):
     """The best tour that ruin and recreate finds from this one."""
     rng, survey = random.Random(SEED), tour.survey
     best = current = tour
     for _ in range(ROUNDS):
         trial = current.copy()
         give_up(trial, rng)
-        extend(trial, budget_m, EXPONENTS[int(rng.random() * len(EXPONENTS))])
+        extend(trial, budget, EXPONENTS[int(rng.random() * len(EXPONENTS))])
         drop_idle(trial)
-        reorder(trial, budget_m, Search.GREEDY_DESCENT)
-        extend(trial, budget_m, 1.0)
-        if not is_safe(survey, trial.stops, budget_m):
+        reorder(trial, budget, Search.GREEDY_DESCENT)
+        extend(trial, budget, 1.0)
+        if not budget.allows_either(survey, trial.stops):
             continue
         if trial.volume >= (1.0 - TOLERANCE) * best.volume:
             current = trial
@@ -210,18 +223,17 @@ def earliness(survey, stops):
     return total
 
 
-def budget(survey, time_limit_s, speed_share):
+def metres_in(survey, time_limit_s, speed_share):
     """Metres that can be flown in time."""
     seconds = (1.0 - RESERVE_SHARE) * time_limit_s - RESERVE_S
     return max(0.0, speed_share * survey.speed_mps * seconds)
 
 
-def lay_out(survey, budget_m):
-    """The best tour found that is no longer than that, in the direction that sees earlier."""
-    tour = improved(begun(survey, budget_m), budget_m)
-    safe = [stops for stops in (tour.stops, tour.stops[::-1])
-            if commitment(survey, stops) <= budget_m]
-    tour.follow(max(safe, key=lambda stops: earliness(survey, stops)))
+def lay_out(survey, budget):
+    """The best tour found within a budget, in the direction that sees earlier."""
+    tour = improved(begun(survey, budget), budget)
+    allowed = [stops for stops in (tour.stops, tour.stops[::-1]) if budget.allows(survey, stops)]
+    tour.follow(max(allowed, key=lambda stops: earliness(survey, stops)))
     return tour
 
 
@@ -244,14 +256,16 @@ def main():
     parser.add_argument("--time-limit-s", type=float, required=True)
     parser.add_argument("--speed-share", type=float, default=SPEED_SHARE,
                         help="of full speed, corners and all")
+    parser.add_argument("--way-home", choices=("flown", "any"), default="flown",
+                        help="what the robot may rely on")
     options = parser.parse_args()
     try:
         survey = Survey(options.folder)
     except SurveyError as error:
         print(f"tour: {error}", file=sys.stderr)
         return 2
-    budget_m = budget(survey, options.time_limit_s, options.speed_share)
-    tour = lay_out(survey, budget_m)
+    budget_m = metres_in(survey, options.time_limit_s, options.speed_share)
+    tour = lay_out(survey, Budget(budget_m, options.way_home == "flown"))
     write(tour, budget_m, options.out or options.folder)
     print(f"tour: {len(tour.stops) - 2} outlooks, {tour.length:.0f} of {budget_m:.0f} m, "
           f"{tour.volume / LITRES_PER_M3:.0f} of {survey.litres.sum() / LITRES_PER_M3:.0f} m3")

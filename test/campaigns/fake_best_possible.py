@@ -17,7 +17,7 @@ def parsed():
     parser.add_argument("-m", dest="module")
     parser.add_argument("-c", dest="text")  # whether OR-tools is there
     parser.add_argument("folder", nargs="?")
-    for name in ("--world", "--robot", "--out", "--time-limit-s", "--speed-share"):
+    for name in ("--world", "--robot", "--out", "--time-limit-s", "--speed-share", "--way-home"):
         parser.add_argument(name)
     parser.add_argument("--set", action="append", default=[])
     return parser.parse_args()
