@@ -152,8 +152,8 @@ class BadInput(unittest.TestCase):
             hops += 1
             if hops == 12:
                 rospy.ServiceProxy("planner_node/start", Trigger)()
-            message.pose.pose.position.x += 3.0 * (hops % 2)
-            message.pose.pose.position.y += 2.0 * (hops % 2)
+            message.pose.pose.position.x += 3.0 * (hops // 4 % 2)
+            message.pose.pose.position.y += 2.0 * (hops // 4 % 2)
             return message
         self.send(2.0, odometry=hop)
         self.assertIsNotNone(self.log.wait(lambda entry: "jumped by 3.6" in entry.msg, 2.0,
