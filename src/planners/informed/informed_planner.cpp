@@ -220,17 +220,8 @@ struct InformedPlanner::Search {
   }
 
   void goHome() {
-    const double from_proposal_m = proposalGap();
-    Polyline way;
-    if (from_proposal_m < kThere_m) {
-      way = toLine(reversed(planner.proposal_->path));
-      way.front() = root;
-    }
-    const Polyline along = wayHomeFrom(way.empty() ? root : way.back());
-    way.insert(way.end(), along.begin(), along.end());
-    const bool is_home =
-        !along.empty() && (along.back() - request.home.position).norm() < 1e-6 && space.isFree(way);
-    if (is_home) return finishHome(space.shortened(way, params.shortcut_length_max_m));
+    const Polyline way = knownWayHome();
+    if (!way.empty()) return finishHome(space.shortened(way, params.shortcut_length_max_m));
     const auto answer =
         space.navigate(root, request.home.position, "home", navigation::TreeDetail::kLeaveOut);
     if (answer.status == navigation::NavigationStatus::kOk) return finishHome(toLine(answer.path));
@@ -238,9 +229,40 @@ struct InformedPlanner::Search {
     result.reason = "no free way home is left in the reachability graph, and " + answer.reason;
   }
 
-  [[nodiscard]] double proposalGap() const {
-    if (!planner.proposal_) return std::numeric_limits<double>::infinity();
-    return (planner.proposal_->path.back().position - root).norm();
+  /// The shortest free way along the graph, from here or from where the path that led here passes
+  /// it; empty if there is none.
+  [[nodiscard]] Polyline knownWayHome() {
+    Polyline shortest;
+    double least_m = std::numeric_limits<double>::infinity();
+    Polyline back;
+    for (const Eigen::Vector3d& place : placesBackAlongProposal()) {
+      back.push_back(place);
+      if (graph::lengthOf(back) >= least_m) break;
+      Polyline way = back;
+      const Polyline along = wayHomeFrom(place);
+      way.insert(way.end(), along.begin(), along.end());
+      const bool is_home = !along.empty() &&
+                           (along.back() - request.home.position).norm() < 1e-6 &&
+                           graph::lengthOf(way) < least_m && space.isFree(way);
+      if (!is_home) continue;
+      least_m = graph::lengthOf(way);
+      shortest = std::move(way);
+    }
+    return shortest;
+  }
+
+  /// Here, and if the last path ends here, places along it back to its start, corners included.
+  [[nodiscard]] Polyline placesBackAlongProposal() const {
+    const bool ends_here = planner.proposal_ &&
+                           (planner.proposal_->path.back().position - root).norm() < kThere_m;
+    if (!ends_here) return {root};
+    const Polyline corners = toLine(reversed(planner.proposal_->path));
+    Polyline places{root};
+    for (std::size_t i = 1; i < corners.size(); ++i) {
+      const Polyline leg = graph::resampled({corners[i - 1], corners[i]}, params.range_m);
+      places.insert(places.end(), leg.begin() + 1, leg.end());
+    }
+    return places;
   }
 
   /// From a place near a vertex that a free straight way leads to, along the graph.
