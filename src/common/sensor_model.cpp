@@ -1,5 +1,6 @@
 #include "spelunk/common/sensor_model.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace spelunk {
@@ -40,6 +41,12 @@ bool ScanThinning::takes(double stamp_s) {
 
 SensorKind kindOf(const SensorModel& sensor) {
   return sensor.kind == "depth_camera" ? SensorKind::kDepthCamera : SensorKind::kLidar;
+}
+
+double denseRange(const SensorModel& sensor, double gap_m) {
+  if (sensor.rows < 2) return sensor.gain_range_m;
+  const double row_angle = sensor.fov_vertical_deg * kDegree / (sensor.rows - 1);
+  return std::min(sensor.gain_range_m, gap_m / std::tan(std::min(row_angle, 0.25 * M_PI)));
 }
 
 std::vector<std::string> SensorModel::problems() const {

@@ -254,6 +254,13 @@ const char* toText(NavigationStatus status) {
 }
 
 struct Navigator::Impl {
+  RobotSpaces& spacesFor(const Eigen::Vector3d& box,
+                         const std::shared_ptr<const map::FrozenMap>& map) {
+    if (!spaces || spaces->known.boxSize() != box) spaces.emplace(box, params.safe_distance_m);
+    spaces->use(map);
+    return *spaces;
+  }
+
   NavigationParams params;
   std::optional<RobotSpaces> spaces;
 };
@@ -270,12 +277,15 @@ NavigationAnswer Navigator::plan(const NavigationQuery& query) {
   require(isFinite(query.start) && isFinite(query.goal), "Navigator: start or goal is not finite");
   require(query.box.allFinite() && (query.box.array() > 0.0).all(), "Navigator: bad box");
   const Stopwatch watch;
-  if (!impl_->spaces || impl_->spaces->known.boxSize() != query.box)
-    impl_->spaces.emplace(query.box, impl_->params.safe_distance_m);
-  impl_->spaces->use(query.map);
-  NavigationAnswer answer = Query(query, impl_->params, *impl_->spaces).run();
+  NavigationAnswer answer =
+      Query(query, impl_->params, impl_->spacesFor(query.box, query.map)).run();
   answer.planning_ms = watch.milliseconds();
   return answer;
+}
+
+bool Navigator::keepsSafeDistance(const std::shared_ptr<const map::FrozenMap>& map,
+                                  const Eigen::Vector3d& box, const Eigen::Vector3d& place) {
+  return impl_->spacesFor(box, map).safe.isFree(place);
 }
 
 const NavigationParams& Navigator::params() const { return impl_->params; }

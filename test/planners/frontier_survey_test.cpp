@@ -17,7 +17,8 @@ using graph::VertexId;
 class SeenCorridor : public ::testing::Test {
  protected:
   SeenCorridor()
-      : world_(test::corridorWorld(40.0)),
+      : params_(test::seeingFourMetres()),
+        world_(test::corridorWorld(40.0)),
         view_(world_.robot, test::FrontierWorld::kResolution_m, {4.0, {0.0, 0.0}}),
         survey_(view_, world_.request, params_) {
     lookFrom(4.0);
@@ -29,9 +30,9 @@ class SeenCorridor : public ::testing::Test {
   VertexId vertexAt(double x) { return graph_.insertVertex({x, 2.5, 2.5}); }
   const VertexLabel& label(VertexId vertex) { return graph_.labelOf(vertex); }
 
+  InformedParams params_;
   test::FrontierWorld world_;
   FrontierView view_;
-  InformedParams params_;
   BarrenVoxels barren_;
   FrontierSurvey survey_;
   ReachabilityGraph graph_{4.0};
@@ -123,7 +124,7 @@ class Sampling : public SeenCorridor {
     survey_.measure(graph_, here_);
   }
   std::vector<FrontierSample> draw(int count, Region region, std::uint64_t seed = 1) {
-    FrontierSampler sampler(view_.credible(), space_.free(), params_, Rng(seed), barren_);
+    FrontierSampler sampler(view_.credible(), space_, params_, Rng(seed), barren_);
     return sampler.draw(here_, label(here_), count, region);
   }
   navigation::Navigator navigator_;
@@ -142,6 +143,12 @@ TEST_F(Sampling, PlacesAreFreeNearTheirVoxelAndApart) {
     for (std::size_t k = 0; k < i; ++k)
       EXPECT_GE((samples[i].place - samples[k].place).norm(), params_.sample_spacing_m);
   }
+}
+
+TEST_F(Sampling, PlacesKeepTheSafeDistanceFromRockThatTheFrontierTouches) {
+  const auto samples = draw(FrontierSampler::kAll, Region::kVoid);
+  ASSERT_GE(samples.size(), 3U);
+  for (const FrontierSample& sample : samples) EXPECT_TRUE(space_.isRoomy(sample.place));
 }
 
 TEST_F(Sampling, DrawsAsManyAsAskedForAndRepeats) {
@@ -174,7 +181,7 @@ TEST_F(Sampling, KeepsAwayFromPlacesOfBefore) {
   const auto all = draw(FrontierSampler::kAll, Region::kVoid);
   std::vector<Eigen::Vector3d> before;
   for (const FrontierSample& sample : all) before.push_back(sample.place);
-  FrontierSampler sampler(view_.credible(), space_.free(), params_, Rng(1), barren_, before);
+  FrontierSampler sampler(view_.credible(), space_, params_, Rng(1), barren_, before);
   for (const FrontierSample& sample :
        sampler.draw(here_, label(here_), FrontierSampler::kAll, Region::kVoid))
     for (const Eigen::Vector3d& place : before)

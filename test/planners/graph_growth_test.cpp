@@ -14,7 +14,8 @@ using graph::VertexId;
 class FlownCorridor : public ::testing::Test {
  protected:
   FlownCorridor()
-      : world_(test::corridorWorld(40.0)),
+      : params_(test::seeingFourMetres()),
+        world_(test::corridorWorld(40.0)),
         view_(world_.robot, test::FrontierWorld::kResolution_m, {4.0, {0.0, 0.0}}),
         navigator_({}),
         boxes_(world_.robot.box_m),

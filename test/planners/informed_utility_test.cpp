@@ -57,7 +57,7 @@ TEST(Utility, CountsEntropyAtEveryRangeOfTheWayButItsEnd) {
   world.lookFrom({4.0, 2.5, 2.5});
   FrontierView view(world.robot, test::FrontierWorld::kResolution_m, {4.0, {0.0, 0.0}});
   view.look(world.request.map);
-  const InformedParams params;
+  const InformedParams params = test::seeingFourMetres();
   const auto bitsAt = [&](double x) {
     return entropyOf(view.seenFrom({x, 2.5, 2.5}, 0.0, {}), params);
   };
@@ -87,6 +87,26 @@ TEST(RegionReasoner, DoesNotTakeUnknownSpaceForWalls) {
   map::OccupancyMap map(params);
   map.markFree(boxAround({0.0, 0.0, 0.0}, {1.0, 1.0, 1.0}));
   EXPECT_EQ(regionAt(*map.freeze(), {}, 5.0), Region::kVoid);
+}
+
+/// Two rays 0.4 m apart where the box is 0.4 m high: all there is known, and no farther.
+TEST(InformedRange, IsWhereTheRowsAreAsFarApartAsTheBoxIsHigh) {
+  RobotModel robot;
+  robot.box_m = {1.0, 1.0, 0.4};
+  SensorModel sensor;
+  sensor.rows = 16;
+  sensor.fov_vertical_deg = 30.0;
+  sensor.gain_range_m = 50.0;
+  robot.sensor_models = {sensor};
+  const InformedParams given;
+  const InformedParams resolved = given.resolvedFor(robot);
+  EXPECT_NEAR(resolved.range_m * std::tan(2.0 * M_PI / 180.0), 0.4, 1e-9);
+  EXPECT_NEAR(resolved.length_decay * resolved.range_m, given.length_decay * 4.0, 1e-9);
+  EXPECT_NEAR(resolved.sample_spacing_m / resolved.range_m, given.sample_spacing_m / 4.0, 1e-9);
+  robot.sensor_models.front().gain_range_m = 4.0;
+  EXPECT_DOUBLE_EQ(given.resolvedFor(robot).range_m, 4.0) << "no farther than it sees";
+  EXPECT_DOUBLE_EQ(given.resolvedFor(robot).gain_min_m3, given.gain_min_m3);
+  EXPECT_DOUBLE_EQ(test::seeingFourMetres().resolvedFor(robot).range_m, 4.0);
 }
 
 }  // namespace

@@ -4,9 +4,17 @@
 
 #include "spelunk/common/robot_model.h"
 #include "spelunk/planners/exploration_planner.h"
+#include "spelunk/planners/informed/informed_params.h"
 #include "support/grid_world.h"
 
 namespace spelunk::test {
+
+/// Those of the paper, for a range of 4 m.
+inline planners::informed::InformedParams seeingFourMetres() {
+  planners::informed::InformedParams params;
+  params.range_m = 4.0;
+  return params;
+}
 
 /// A robot that sees all around it to 6 m, in a grid world whose map it makes by scans.
 class FrontierWorld {

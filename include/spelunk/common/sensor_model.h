@@ -65,6 +65,10 @@ struct SensorModel {
 
 [[nodiscard]] SensorKind kindOf(const SensorModel& sensor);
 
+/// Up to which distance neighbouring rows of rays are at most `gap_m` apart, metres; not beyond the
+/// range of the sensor's gains.
+[[nodiscard]] double denseRange(const SensorModel& sensor, double gap_m);
+
 /// Which scans of one sensor enter the map: those at least SensorModel::mapping_period_s after the
 /// last that did, and those of a clock that jumped back.
 class ScanThinning {

@@ -135,6 +135,10 @@ class Navigator {
   /// touches something is left by a step of at most 0.6 m to free space, if there is some.
   [[nodiscard]] NavigationAnswer plan(const NavigationQuery& query);
 
+  /// Whether a box at a place keeps the safe distance from all that is known to be occupied.
+  [[nodiscard]] bool keepsSafeDistance(const std::shared_ptr<const map::FrozenMap>& map,
+                                       const Eigen::Vector3d& box, const Eigen::Vector3d& place);
+
   [[nodiscard]] const NavigationParams& params() const;
 
  private:

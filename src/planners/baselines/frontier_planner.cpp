@@ -153,7 +153,7 @@ struct FrontierPlanner::Search {
       if (static_cast<int>(candidates.size()) >= params.candidates) break;
       if (crossed.covers(voxel) || !isCluster(voxel)) continue;
       ++result.stats.samples;
-      const auto place = places.find(voxel, space.free());
+      const auto place = places.findRoomy(voxel, space);
       if (!place) {
         ++infeasible;
         crossed.add(voxel, 0.5 * params.sample_spacing_m);

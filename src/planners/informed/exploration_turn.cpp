@@ -85,7 +85,7 @@ std::optional<Candidate> ExplorationTurn::tryAll(const std::vector<Draw>& draws)
 }
 
 std::optional<Candidate> ExplorationTurn::tryOnce(const std::vector<Draw>& draws) {
-  FrontierSampler sampler(judge_.view.credible(), judge_.space.free(), judge_.params,
+  FrontierSampler sampler(judge_.view.credible(), judge_.space, judge_.params,
                           rng_.fork("round/" + std::to_string(round_++)), barren_, vain_);
   std::vector<FrontierSample> samples;
   for (const Draw& draw : draws) {

@@ -34,7 +34,7 @@ bool BarrenVoxels::cover(const Eigen::Vector3d& voxel) const {
   return nearest && (index_.point(*nearest) - voxel).norm() <= kPlaceStep_m;
 }
 
-FrontierSampler::FrontierSampler(const map::FrozenMap& map, const FreeSpace& space,
+FrontierSampler::FrontierSampler(const map::FrozenMap& map, const KnownSpace& space,
                                  const InformedParams& params, Rng rng, BarrenVoxels& barren,
                                  std::vector<Eigen::Vector3d> apart_from)
     : map_(map),
@@ -79,7 +79,7 @@ std::vector<FrontierSample> FrontierSampler::draw(graph::VertexId vertex, const 
     if (!isApart(voxel)) continue;  // its place would hardly be farther off
     if (barren_.cover(voxel)) continue;
     ++tried_;
-    const auto place = places_.find(voxel, space_);
+    const auto place = places_.findRoomy(voxel, space_);
     if (!place) {
       ++infeasible_;
       barren_.add(voxel);

@@ -1,10 +1,26 @@
 #include "spelunk/planners/informed/informed_params.h"
 
+#include <algorithm>
+
 namespace spelunk::planners::informed {
+
+InformedParams InformedParams::resolvedFor(const RobotModel& robot) const {
+  if (range_m > 0.0) return *this;
+  InformedParams resolved = *this;
+  for (const SensorModel& sensor : robot.sensor_models)
+    resolved.range_m = std::max(resolved.range_m, denseRange(sensor, robot.box_m.z()));
+  if (resolved.range_m <= 0.0) resolved.range_m = kPaperRange_m;
+  const double scale = resolved.range_m / kPaperRange_m;
+  resolved.sample_spacing_m *= scale;
+  resolved.length_decay /= scale;
+  resolved.gain_min_m3 *= scale;
+  return resolved;
+}
 
 std::vector<std::string> InformedParams::problems() const {
   std::vector<std::string> problems;
-  if (sample_spacing_m > range_m) problems.push_back("sample_spacing_m must not exceed range_m");
+  const double range = range_m > 0.0 ? range_m : kPaperRange_m;
+  if (sample_spacing_m > range) problems.push_back("sample_spacing_m must not exceed range_m");
   if (clearance_weight_branch < clearance_weight_void)
     problems.push_back("clearance_weight_branch must be at least clearance_weight_void");
   return problems;

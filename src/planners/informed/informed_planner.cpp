@@ -297,14 +297,14 @@ struct InformedPlanner::Search {
 
 InformedPlanner::InformedPlanner(const InformedParams& params, const RobotModel& robot,
                                  double resolution_m)
-    : params_(params),
+    : params_(params.resolvedFor(robot)),
       robot_(robot),
-      view_(robot, resolution_m, viewParams(params)),
-      navigator_(navigationParams(params)),
+      view_(robot, resolution_m, viewParams(params_)),
+      navigator_(navigationParams(params_)),
       boxes_(robot.box_m),
-      growth_(params),
-      scouting_(params),
-      tried_(params.tried_radius_m) {
+      growth_(params_),
+      scouting_(params_),
+      tried_(params_.tried_radius_m) {
   require(kindOf(robot) == RobotKind::kAerial, "InformedPlanner: for robots that fly");
 }
 

@@ -59,7 +59,7 @@ int Scouting::scout(graph::VertexId from, int count, GraphGrowth& growth, const 
     if (view.frontier().countWithin(cluster) <
         static_cast<std::size_t>(params_.frontier_voxels_min))
       continue;
-    const auto place = places.find(voxel, space.free());
+    const auto place = places.findRoomy(voxel, space);
     if (!place) {
       barren_.push_back({voxel, 0.5 * params_.sample_spacing_m});
     } else if (join(from, *place, growth, space)) {

@@ -24,4 +24,16 @@ std::optional<Eigen::Vector3d> PlaceFinder::find(const Eigen::Vector3d& point,
   return std::nullopt;
 }
 
+std::optional<Eigen::Vector3d> PlaceFinder::findRoomy(const Eigen::Vector3d& point,
+                                                      const KnownSpace& space) const {
+  std::optional<Eigen::Vector3d> nearest;
+  for (const Eigen::Vector3d& offset : offsets_) {
+    const Eigen::Vector3d place = point + offset;
+    if (space.free().at(place) != Rejection::kNone) continue;
+    if (space.isRoomy(place)) return place;
+    if (!nearest) nearest = place;
+  }
+  return nearest;
+}
+
 }  // namespace spelunk::planners

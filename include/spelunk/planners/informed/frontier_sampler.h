@@ -42,7 +42,7 @@ class FrontierSampler {
   static constexpr int kAll = std::numeric_limits<int>::max();
 
   /// A view for the duration of one plan. No sample is nearer than d_s to any of `apart_from`.
-  FrontierSampler(const map::FrozenMap& map, const FreeSpace& space, const InformedParams& params,
+  FrontierSampler(const map::FrozenMap& map, const KnownSpace& space, const InformedParams& params,
                   Rng rng, BarrenVoxels& barren, std::vector<Eigen::Vector3d> apart_from = {});
 
   /// At most `count` samples of a vertex whose clearances are measured; places of earlier draws
@@ -59,7 +59,7 @@ class FrontierSampler {
   [[nodiscard]] bool isApart(const Eigen::Vector3d& place) const;
 
   const map::FrozenMap& map_;
-  const FreeSpace& space_;
+  const KnownSpace& space_;
   const InformedParams& params_;
   PlaceFinder places_;
   Rng rng_;

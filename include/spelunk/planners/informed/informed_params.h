@@ -4,12 +4,15 @@
 #include <vector>
 
 #include "spelunk/common/params.h"
+#include "spelunk/common/robot_model.h"
 
 namespace spelunk::planners::informed {
 
 /// Parameters of Informed Exploration (section "informed"). Symbols of Akbari 2021 in brackets.
 struct InformedParams {
-  double range_m = 4.0;
+  static constexpr double kPaperRange_m = 4.0;  ///< What the other defaults were made for.
+
+  double range_m = 0.0;
   double sample_spacing_m = 1.0;
   int samples_a_vertex = 4;
   int ranked_vertices = 3;
@@ -36,8 +39,9 @@ struct InformedParams {
 
   template <class Visitor>
   void visit(Visitor&& field) {
-    field("range_m", range_m, Bounds{0.5, 100.0},
-          "spacing of vertices, half their boxes and length of the rays of a gain [d_max]",
+    field("range_m", range_m, Bounds{0.0, 100.0},
+          "spacing of vertices, half their boxes and length of the rays of a gain; 0: as far as the "
+          "sensors see without gaps, with what is meant for 4 m scaled to it [d_max]",
           Audience::kUser);
     field("sample_spacing_m", sample_spacing_m, Bounds{0.1, 20.0},
           "frontier samples are at least this far apart [d_s]");
@@ -80,6 +84,11 @@ struct InformedParams {
     field("shortcut_length_max_m", shortcut_length_max_m, Bounds{0.5, 200.0},
           "longest straight shortcut of a way along the graph");
   }
+
+  /// With range_m 0: the distance up to which the rows of the robot's best sensor are no farther
+  /// apart than its box is high, so that a place there is known as a whole; sample_spacing_m,
+  /// length_decay and gain_min_m3, which are meant for the paper's 4 m, are scaled to it. Else as is.
+  [[nodiscard]] InformedParams resolvedFor(const RobotModel& robot) const;
 
   /// Rules between fields, for the tree's problem list.
   [[nodiscard]] std::vector<std::string> problems() const;

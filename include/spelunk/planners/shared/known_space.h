@@ -21,6 +21,10 @@ class KnownSpace {
 
   [[nodiscard]] const FreeSpace& free() const { return free_; }
   [[nodiscard]] bool isFree(const graph::Polyline& line) const;
+  /// Whether the box at a place keeps navigation's safe distance.
+  [[nodiscard]] bool isRoomy(const Eigen::Vector3d& place) const {
+    return navigator_.keepsSafeDistance(request_.map, robot_.box_m, place);
+  }
   /// Waypoints left out where a straight way of at most `reach_m` leads past them.
   [[nodiscard]] graph::Polyline shortened(const graph::Polyline& line, double reach_m) const;
 
