@@ -60,6 +60,13 @@ std::vector<Candidate> CandidateJudge::judge(const std::vector<FrontierSample>& 
                                              Refusals& refusals) const {
   std::vector<Candidate> candidates;
   for (const FrontierSample& sample : samples) {
+    const double straight_m =
+        (sample.place - root).norm() + (request.home.position - sample.place).norm();
+    if (!fits_metres(straight_m)) {
+      refusals.over_budget.insert(sample.vertex);
+      refusals.vain.push_back(sample.place);
+      continue;
+    }
     Candidate candidate{sample, {}, 0.0, 0.0, {}};
     UtilityTerms terms;
     if (!isWorthIt(candidate, terms.entropy_end_bits, refusals)) {

@@ -12,6 +12,7 @@ using graph::VertexId;
 namespace {
 
 constexpr double kNeighbourWay = 3.0;  // times d_max: frontier behind a wall is no neighbour
+constexpr int kUnaffordableMax = 30;   // candidates; what is farther is not affordable either
 
 }  // namespace
 
@@ -39,6 +40,8 @@ std::optional<Choice> ExplorationTurn::chooseFrom(VertexId current) {
     if (!way.empty() && (here - judge_.root).norm() > 0.0) way.insert(way.begin(), judge_.root);
     return way;
   };
+  // Far frontier counts too, or all that is near and hardly worth it would come before it.
+  static_cast<void>(scout_(current));
   do {
     for (auto draws = nextRanked(current); !draws.empty(); draws = nextRanked(current))
       if (auto candidate = tryAll(draws))
@@ -85,23 +88,29 @@ std::optional<Candidate> ExplorationTurn::tryAll(const std::vector<Draw>& draws)
 }
 
 std::optional<Candidate> ExplorationTurn::tryOnce(const std::vector<Draw>& draws) {
+  last_refusals_ = {};
+  if (unaffordable_ >= kUnaffordableMax) {
+    for (const Draw& draw : draws) over_budget_.insert(draw.vertex);
+    return std::nullopt;
+  }
   FrontierSampler sampler(judge_.view.credible(), judge_.space, judge_.params,
                           rng_.fork("round/" + std::to_string(round_++)), barren_, vain_);
   std::vector<FrontierSample> samples;
   for (const Draw& draw : draws) {
-    survey_.measure(growth_.graph(), draw.vertex);
+    if (judge_.region == Region::kBranch) survey_.measure(growth_.graph(), draw.vertex);
     const auto drawn =
         sampler.draw(draw.vertex, growth_.graph().labelOf(draw.vertex), draw.count, judge_.region);
     samples.insert(samples.end(), drawn.begin(), drawn.end());
   }
   samples_ += static_cast<int>(samples.size());
   infeasible_ += sampler.infeasible();
-  last_refusals_ = {};
   std::vector<Candidate> candidates = judge_.judge(samples, last_refusals_);
+  over_budget_.insert(last_refusals_.over_budget.begin(), last_refusals_.over_budget.end());
   vain_.insert(vain_.end(), last_refusals_.vain.begin(), last_refusals_.vain.end());
   seen_.insert(seen_.end(), candidates.begin(), candidates.end());
   for (Candidate& candidate : candidates) {
     if (fits_budget_(candidate)) return std::move(candidate);
+    ++unaffordable_;
     over_budget_.insert(candidate.sample.vertex);
     vain_.push_back(candidate.sample.place);  // there will not be more time in this plan
   }

@@ -123,26 +123,30 @@ struct InformedPlanner::Search {
   /// The contextual reasoner R_cr: is there time for a way of this length and then home, back along
   /// it and by the graph, else as the motion planner finds it?
   [[nodiscard]] bool fitsBudget(double length_m, const Eigen::Vector3d& end) {
-    const auto fits = [&](double metres) {
-      return params.eta_factor * metres / planner.robot_.speed_max_mps <= request.remaining_s;
-    };
     const ReachabilityGraph& graph = planner.growth_.graph();
     const double home_m = graph.cheapestPath(current, ReachabilityGraph::home()).length;
-    if (fits(2.0 * length_m + home_m)) return true;
-    if (!fits(length_m + (request.home.position - end).norm())) return false;
+    if (fitsMetres(2.0 * length_m + home_m)) return true;
+    if (!fitsMetres(length_m + (request.home.position - end).norm())) return false;
     if (++ways_home > kWaysHomeMax) return false;
     const auto answer = space.navigate(end, request.home.position, "home from a sample",
                                        navigation::TreeDetail::kLeaveOut);
     return answer.status == navigation::NavigationStatus::kOk &&
-           fits(length_m + lengthOf(answer.path));
+           fitsMetres(length_m + lengthOf(answer.path));
+  }
+
+  [[nodiscard]] bool fitsMetres(double metres) const {
+    return params.eta_factor * metres / planner.robot_.speed_max_mps <= request.remaining_s;
   }
 
   void explore() {
     const Stopwatch watch;
     const Region region =
         regionAt(*request.map, {root, request.pose.yaw}, params.branch_distance_m);
-    CandidateJudge judge{request, planner.view_, params, planner.tried_, space, root,
-                         region,  0.0,           {}};
+    CandidateJudge judge{request, planner.view_,
+                         params,  planner.tried_,
+                         space,   root,
+                         region,  0.0,
+                         {},      [this](double metres) { return fitsMetres(metres); }};
     ExplorationTurn turn(
         planner.growth_, survey, judge, request.rng.fork("sampler"),
         [this](const Candidate& candidate) {
@@ -241,8 +245,7 @@ struct InformedPlanner::Search {
       Polyline way = back;
       const Polyline along = wayHomeFrom(place);
       way.insert(way.end(), along.begin(), along.end());
-      const bool is_home = !along.empty() &&
-                           (along.back() - request.home.position).norm() < 1e-6 &&
+      const bool is_home = !along.empty() && (along.back() - request.home.position).norm() < 1e-6 &&
                            graph::lengthOf(way) < least_m && space.isFree(way);
       if (!is_home) continue;
       least_m = graph::lengthOf(way);
@@ -253,8 +256,8 @@ struct InformedPlanner::Search {
 
   /// Here, and if the last path ends here, places along it back to its start, corners included.
   [[nodiscard]] Polyline placesBackAlongProposal() const {
-    const bool ends_here = planner.proposal_ &&
-                           (planner.proposal_->path.back().position - root).norm() < kThere_m;
+    const bool ends_here =
+        planner.proposal_ && (planner.proposal_->path.back().position - root).norm() < kThere_m;
     if (!ends_here) return {root};
     const Polyline corners = toLine(reversed(planner.proposal_->path));
     Polyline places{root};

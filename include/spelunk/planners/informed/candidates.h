@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -28,8 +29,10 @@ struct Refusals {
   int tried = 0;
   int gainless = 0;
   int unreachable = 0;
-  int far = 0;                        ///< The way is too long for a neighbour.
-  std::vector<Eigen::Vector3d> vain;  ///< Places of those that no later look will like better.
+  int far = 0;                            ///< The way is too long for a neighbour.
+  std::set<graph::VertexId> over_budget;  ///< With a sample that even straight ways there and home
+                                          ///< leave no time for.
+  std::vector<Eigen::Vector3d> vain;      ///< Places of those that no later look will like better.
   std::string tried_why;
   double best_gain_m3 = 0.0;  ///< Of those that were not tried before.
 };
@@ -48,6 +51,9 @@ struct CandidateJudge {
   /// Way from the root to a vertex along the graph, for samples out of the neighbourhood; empty if
   /// the motion planner is to go straight from the root.
   std::function<graph::Polyline(graph::VertexId)> way_to_vertex;
+
+  /// Whether a flight of so many metres fits the endurance.
+  std::function<bool(double)> fits_metres;
 
   /// Cubic metres of unknown space seen from a place.
   [[nodiscard]] double gainAt(const Eigen::Vector3d& place) const;

@@ -57,6 +57,7 @@ class ExplorationTurn {
   int round_ = 0;
   int samples_ = 0;
   int infeasible_ = 0;
+  int unaffordable_ = 0;  ///< Candidates so far.
   Refusals last_refusals_;
   std::set<graph::VertexId> over_budget_;  ///< Vertices with samples there is no time for.
 };

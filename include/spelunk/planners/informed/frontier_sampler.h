@@ -45,9 +45,9 @@ class FrontierSampler {
   FrontierSampler(const map::FrozenMap& map, const KnownSpace& space, const InformedParams& params,
                   Rng rng, BarrenVoxels& barren, std::vector<Eigen::Vector3d> apart_from = {});
 
-  /// At most `count` samples of a vertex whose clearances are measured; places of earlier draws
-  /// count for the distance d_s. With kAll all voxels are looked at but those right beside barren
-  /// ones.
+  /// At most `count` samples of a vertex, in a branch one whose clearances are measured; places of
+  /// earlier draws count for the distance d_s. With kAll all voxels are looked at but those right
+  /// beside barren ones.
   [[nodiscard]] std::vector<FrontierSample> draw(graph::VertexId vertex, const VertexLabel& label,
                                                  int count, Region region);
 

@@ -33,16 +33,17 @@ struct InformedParams {
   double growth_m = 0.2;
   double safe_distance_m = 0.2;
   int iterations = 3000;
-  double eta_factor = 1.2;
+  double eta_factor = 1.1;
   double tried_radius_m = 1.5;
   double shortcut_length_max_m = 8.0;
 
   template <class Visitor>
   void visit(Visitor&& field) {
-    field("range_m", range_m, Bounds{0.0, 100.0},
-          "spacing of vertices, half their boxes and length of the rays of a gain; 0: as far as the "
-          "sensors see without gaps, with what is meant for 4 m scaled to it [d_max]",
-          Audience::kUser);
+    field(
+        "range_m", range_m, Bounds{0.0, 100.0},
+        "spacing of vertices, half their boxes and length of the rays of a gain; 0: as far as the "
+        "sensors see without gaps, with what is meant for 4 m scaled to it [d_max]",
+        Audience::kUser);
     field("sample_spacing_m", sample_spacing_m, Bounds{0.1, 20.0},
           "frontier samples are at least this far apart [d_s]");
     field("samples_a_vertex", samples_a_vertex, Bounds{1, 1000},
@@ -87,7 +88,8 @@ struct InformedParams {
 
   /// With range_m 0: the distance up to which the rows of the robot's best sensor are no farther
   /// apart than its box is high, so that a place there is known as a whole; sample_spacing_m,
-  /// length_decay and gain_min_m3, which are meant for the paper's 4 m, are scaled to it. Else as is.
+  /// length_decay and gain_min_m3, which are meant for the paper's 4 m, are scaled to it. Else as
+  /// is.
   [[nodiscard]] InformedParams resolvedFor(const RobotModel& robot) const;
 
   /// Rules between fields, for the tree's problem list.
