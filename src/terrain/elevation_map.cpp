@@ -136,13 +136,21 @@ void ElevationMap::lowerBounds(const Eigen::Vector3f& sensor) {
   const RayFan& rays = scan_cells_->rays();
   const auto side = static_cast<std::size_t>(grid_.side());
   RayFan::Row row{std::vector<float>(side), std::vector<std::uint32_t>(side)};
+  std::vector<std::uint32_t> unknown(side);
   for (int y = 0; y < grid_.side(); ++y) {
+    std::size_t count = 0;
+    for (std::size_t x = 0; x < side; ++x) {  // without a branch: unknown cells lie scattered
+      unknown[count] = static_cast<std::uint32_t>(x);
+      const int column = grid_.first().x() + static_cast<int>(x);
+      count += std::isnan(height_[grid_.slotOf(column, grid_.first().y() + y)]) ? 1 : 0;
+    }
+    if (count == 0) continue;
     rays.locate(0.5F * cell_m - sensor.x(), cell_m,
                 (static_cast<float>(y) + 0.5F) * cell_m - sensor.y(), row);
-    for (std::size_t x = 0; x < side; ++x) {
+    for (std::size_t i = 0; i < count; ++i) {
+      const std::size_t x = unknown[i];
       const CellIndex cell = grid_.first() + CellIndex(static_cast<int>(x), y);
       const std::size_t slot = grid_.slotOf(cell);
-      if (!std::isnan(height_[slot])) continue;
       const float steepest = rays.steepestBeyond(row, x);
       if (steepest == 0.0F) continue;
       const float bound = sensor.z() - steepest * row.distance[x];

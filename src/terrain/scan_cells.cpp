@@ -4,6 +4,12 @@
 #include <cmath>
 #include <limits>
 
+#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__)
+#define SPELUNK_WIDE_IF_POSSIBLE __attribute__((target_clones("avx2", "default")))
+#else
+#define SPELUNK_WIDE_IF_POSSIBLE
+#endif
+
 namespace spelunk::terrain {
 namespace {
 
@@ -21,41 +27,61 @@ ScanCells::ScanCells(const ElevationParams& params, const WindowGrid& grid)
       clearance_m_(static_cast<float>(params.clearance_m)),
       climb_(static_cast<float>(std::tan(params.climb_deg * M_PI / 180.0))),
       half_body_m_(0.5F * params.body_m.cast<float>()),
-      open_(kEmpty),
       stacks_(static_cast<std::size_t>(side_) * side_, kEmpty),
+      touched_(stacks_.size() + 1),
+      is_tall_(stacks_.size(), 0),
       rays_(params.cell_m, 1.7 * params.reach_m) {}
 
 /// Points of a block in the window's frame.
 struct ScanCells::Block {
-  using Lane = Eigen::Array<float, kBlock, 1>;
-  Lane x;
-  Lane y;
-  Lane z;
-  Lane odd;  ///< At most 0 for points in the window, not high and not near the body.
+  alignas(64) float x[kBlock];
+  alignas(64) float y[kBlock];
+  alignas(64) float z[kBlock];
+  alignas(64) float odd[kBlock];  ///< At most 0 for points in the window, not high, off the body.
+  alignas(64) std::int32_t cell[kBlock];  ///< By y * side + x; means nothing outside the window.
 };
 
-void ScanCells::fill(const Eigen::Vector3f* points, std::size_t count, const WindowFrame& frame,
-                     Block& block) const {
-  Block::Lane px = Block::Lane::Zero();
-  Block::Lane py = Block::Lane::Zero();
-  Block::Lane pz = Block::Lane::Zero();
+/// Plain loops, so that the compiler makes wide ones of them where the machine has them; the
+/// results are the same.
+SPELUNK_WIDE_IF_POSSIBLE void ScanCells::fill(const Eigen::Vector3f* points, std::size_t count,
+                                              const WindowFrame& frame, Block& block) const {
+  const float r00 = frame.R_window_sensor(0, 0), r01 = frame.R_window_sensor(0, 1);
+  const float r02 = frame.R_window_sensor(0, 2), r10 = frame.R_window_sensor(1, 0);
+  const float r11 = frame.R_window_sensor(1, 1), r12 = frame.R_window_sensor(1, 2);
+  const float r20 = frame.R_window_sensor(2, 0), r21 = frame.R_window_sensor(2, 1);
+  const float r22 = frame.R_window_sensor(2, 2);
+  const float sensor_x = frame.sensor.x(), sensor_y = frame.sensor.y();
+  const float sensor_z = frame.sensor.z();
+  const float* from = points->data();
   for (std::size_t i = 0; i < count; ++i) {
-    const auto lane = static_cast<Eigen::Index>(i);
-    px(lane) = points[i].x();
-    py(lane) = points[i].y();
-    pz(lane) = points[i].z();
+    const float px = from[3 * i];
+    const float py = from[3 * i + 1];
+    const float pz = from[3 * i + 2];
+    block.x[i] = r00 * px + r01 * py + r02 * pz + sensor_x;
+    block.y[i] = r10 * px + r11 * py + r12 * pz + sensor_y;
+    block.z[i] = r20 * px + r21 * py + r22 * pz + sensor_z;
   }
-  const Eigen::Matrix3f& r = frame.R_window_sensor;
-  block.x = r(0, 0) * px + r(0, 1) * py + r(0, 2) * pz + frame.sensor.x();
-  block.y = r(1, 0) * px + r(1, 1) * py + r(1, 2) * pz + frame.sensor.y();
-  block.z = r(2, 0) * px + r(2, 1) * py + r(2, 2) * pz + frame.sensor.z();
+  const float base_x = frame.base.x(), base_y = frame.base.y();
   const float high = frame.foot_z + clearance_m_;
+  const float climb = climb_;
   const float extent = static_cast<float>(side_) * cell_m_;
   const float body_radius = half_body_m_.norm();
-  px = ((block.x - frame.base.x()).square() + (block.y - frame.base.y()).square()).sqrt();
-  py = (block.z - (high + climb_ * px)).max(body_radius - px);
-  pz = (-block.x).max(block.x - extent).max(-block.y).max(block.y - extent);
-  block.odd = py.max(pz) + 0.0F * (block.x + block.y + block.z);  // not finite: not a number
+  for (std::size_t i = 0; i < count; ++i) {
+    const float x = block.x[i], y = block.y[i], z = block.z[i];
+    const float dx = x - base_x, dy = y - base_y;
+    const float distance = std::sqrt(dx * dx + dy * dy);
+    const float above = std::max(z - (high + climb * distance), body_radius - distance);
+    const float outside = std::max(std::max(-x, x - extent), std::max(-y, y - extent));
+    block.odd[i] = std::max(above, outside) + 0.0F * (x + y + z);  // not finite: not a number
+  }
+  const float per_cell = 1.0F / cell_m_;
+  const std::int32_t side = side_;
+  const auto last = static_cast<float>(side - 1);
+  for (std::size_t i = 0; i < count; ++i) {
+    const float column = std::min(std::max(0.0F, block.x[i] * per_cell), last);
+    const float row = std::min(std::max(0.0F, block.y[i] * per_cell), last);
+    block.cell[i] = static_cast<std::int32_t>(row) * side + static_cast<std::int32_t>(column);
+  }
 }
 
 void ScanCells::collect(const std::vector<Eigen::Vector3f>& points, const WindowFrame& frame,
@@ -65,48 +91,44 @@ void ScanCells::collect(const std::vector<Eigen::Vector3f>& points, const Window
     cells_.resize(points.size());
     heights_.resize(points.size());
   }
-  used_ = 0;
+  used_ = touched_count_ = 0;
   rays_.clear();
   update.points = static_cast<int>(points.size());
   for (std::size_t i = 0; i < points.size(); i += kBlock)
     sortBlock(points.data() + i, std::min(kBlock, points.size() - i), frame, update);
-  stacks_[open_cell_] = open_;
-  open_ = kEmpty;
-  open_cell_ = 0;
   cutTallStacks(update);
   measure(frame, grid, heights, update);
   rays_.finish();
 }
 
+/// Without branches but the first: neighbours in a scan share a cell or not, and nothing foretells
+/// which.
 void ScanCells::sortBlock(const Eigen::Vector3f* points, std::size_t count,
                           const WindowFrame& frame, ElevationUpdate& update) {
   Block block;
   fill(points, count, frame, block);
-  const float per_cell = 1.0F / cell_m_;
-  const int side = side_;
-  Stack open = open_;  // a local: its members stay in registers
-  for (Eigen::Index i = 0; i < static_cast<Eigen::Index>(count); ++i) {
-    const float z = block.z(i);
-    if (!(block.odd(i) <= 0.0F) && !isKept({block.x(i), block.y(i), z}, frame, update)) continue;
-    const int column = std::min(static_cast<int>(block.x(i) * per_cell), side - 1);
-    const int row = std::min(static_cast<int>(block.y(i) * per_cell), side - 1);
-    const auto cell = static_cast<std::uint32_t>(row * side + column);
-    cells_[used_] = cell;
-    heights_[used_++] = z;
-    if (cell != open_cell_) open = exchangeStack(open, cell);
-    open.lowest = std::min(open.lowest, z);
-    open.highest = std::max(open.highest, z);
-    open.sum += z;
-    ++open.count;
+  Stack* const stacks = stacks_.data();
+  std::uint32_t* const touched = touched_.data();
+  std::uint32_t* const cells = cells_.data();
+  float* const heights = heights_.data();
+  std::size_t touched_count = touched_count_;
+  std::size_t used = used_;
+  for (std::size_t i = 0; i < count; ++i) {
+    const float z = block.z[i];
+    if (!(block.odd[i] <= 0.0F) && !isKept({block.x[i], block.y[i], z}, frame, update)) continue;
+    const auto cell = static_cast<std::uint32_t>(block.cell[i]);
+    cells[used] = cell;
+    heights[used++] = z;
+    Stack& stack = stacks[cell];
+    touched[touched_count] = cell;
+    touched_count += stack.count == 0 ? 1 : 0;
+    stack.lowest = std::min(stack.lowest, z);
+    stack.highest = std::max(stack.highest, z);
+    stack.sum += z;
+    ++stack.count;
   }
-  open_ = open;
-}
-
-ScanCells::Stack ScanCells::exchangeStack(const Stack& open, std::uint32_t cell) {
-  stacks_[open_cell_] = open;
-  open_cell_ = cell;
-  if (stacks_[cell].count == 0) touched_.push_back(cell);
-  return stacks_[cell];
+  touched_count_ = touched_count;
+  used_ = used;
 }
 
 bool ScanCells::isKept(const Eigen::Vector3f& point, const WindowFrame& frame,
@@ -129,42 +151,48 @@ bool ScanCells::isKept(const Eigen::Vector3f& point, const WindowFrame& frame,
 }
 
 void ScanCells::cutTallStacks(ElevationUpdate& update) {
-  bool is_any_tall = false;
   const auto isTall = [](const Stack& stack) { return stack.highest - stack.lowest > kTopBand_m; };
-  for (const std::uint32_t cell : touched_) {
+  for (std::size_t i = 0; i < touched_count_; ++i) {
+    const std::uint32_t cell = touched_[i];
     Stack& stack = stacks_[cell];
     if (!isTall(stack)) continue;
-    is_any_tall = true;
-    stack.count = 0;  // marks it
+    tall_cells_.push_back(cell);
+    is_tall_[cell] = 1;
+    stack.count = 0;
     stack.sum = 0.0F;
     stack.highest = -kInf;
   }
-  if (!is_any_tall) return;
+  if (tall_cells_.empty()) return;
   for (std::size_t i = 0; i < used_; ++i) {
+    if (is_tall_[cells_[i]] == 0) continue;
+    tall_points_.push_back(static_cast<std::uint32_t>(i));
     Stack& stack = stacks_[cells_[i]];
-    if (stack.count == 0 && heights_[i] <= stack.lowest + clearance_m_)
+    if (heights_[i] <= stack.lowest + clearance_m_)
       stack.highest = std::max(stack.highest, heights_[i]);
   }
-  for (std::size_t i = 0; i < used_; ++i) {
+  for (const std::uint32_t i : tall_points_) {
     Stack& stack = stacks_[cells_[i]];
-    if (stack.count > 0) continue;
     if (heights_[i] > stack.highest) {
       ++update.dropped_high;
     } else if (heights_[i] >= stack.highest - kTopBand_m) {
       stack.sum += heights_[i];
-      --stack.count;  // negative: still marked
+      ++stack.count;
     }
   }
+  for (const std::uint32_t cell : tall_cells_) is_tall_[cell] = 0;
+  tall_cells_.clear();
+  tall_points_.clear();
 }
 
 void ScanCells::measure(const WindowFrame& frame, const WindowGrid& grid,
                         const std::vector<float>& heights, ElevationUpdate& update) {
   measures_.clear();
-  for (const std::uint32_t cell : touched_) {
+  for (std::size_t i = 0; i < touched_count_; ++i) {
+    const std::uint32_t cell = touched_[i];
     Stack& stack = stacks_[cell];
     const int x = static_cast<int>(cell) % side_;
     const int y = static_cast<int>(cell) / side_;
-    const int count = std::abs(stack.count);
+    const int count = stack.count;
     const float known = heights[grid.slotOf(grid.first().x() + x, grid.first().y() + y)];
     rays_.add(Eigen::Vector3f((static_cast<float>(x) + 0.5F) * cell_m_,
                               (static_cast<float>(y) + 0.5F) * cell_m_, stack.lowest) -
@@ -175,7 +203,6 @@ void ScanCells::measure(const WindowFrame& frame, const WindowGrid& grid,
       measures_.push_back({x, y, stack.lowest, stack.sum / static_cast<float>(count), count});
     stack = kEmpty;
   }
-  touched_.clear();
 }
 
 }  // namespace spelunk::terrain

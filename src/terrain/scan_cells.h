@@ -62,7 +62,6 @@ class ScanCells {
             Block& block) const;
   /// Whether a point is ground or an obstacle; else it is counted as what it is.
   bool isKept(const Eigen::Vector3f& point, const WindowFrame& frame, ElevationUpdate& update);
-  Stack exchangeStack(const Stack& open, std::uint32_t cell);
   void cutTallStacks(ElevationUpdate& update);
   void measure(const WindowFrame& frame, const WindowGrid& grid, const std::vector<float>& heights,
                ElevationUpdate& update);
@@ -72,11 +71,13 @@ class ScanCells {
   float clearance_m_;
   float climb_;  ///< Rise a metre.
   Eigen::Vector3f half_body_m_;
-  std::uint32_t open_cell_ = 0;  ///< Neighbours in a scan often share a cell: it is kept apart.
-  Stack open_;
-  std::vector<Stack> stacks_;           ///< By y * side + x; empty between calls.
-  std::vector<std::uint32_t> touched_;  ///< Stacks in use.
-  std::size_t used_ = 0;                ///< Of the two below: the points in the window.
+  std::vector<Stack> stacks_;  ///< By y * side + x; empty between calls.
+  std::size_t touched_count_ = 0;
+  std::vector<std::uint32_t> touched_;  ///< Stacks in use: the first so many.
+  std::vector<char> is_tall_;           ///< By y * side + x; 0 between calls, as the next two.
+  std::vector<std::uint32_t> tall_cells_;
+  std::vector<std::uint32_t> tall_points_;  ///< Their points, among those below.
+  std::size_t used_ = 0;                    ///< Of the two below: the points in the window.
   std::vector<std::uint32_t> cells_;
   std::vector<float> heights_;
   std::vector<CellMeasure> measures_;
