@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "spelunk/common/contract.h"
@@ -18,6 +19,8 @@ using graph::Polyline;
 
 constexpr double kPlaceReach_m = 1.5;
 constexpr double kPlaceStep_m = 0.3;
+constexpr double kWideReach_m = 6.0;
+constexpr double kWideStep_m = 0.6;
 constexpr double kClusterSide_m = 2.0;
 constexpr double kReached_m = 0.5;
 constexpr double kShareLeft = 0.5;  // of what a target promised that still makes it worth having
@@ -65,6 +68,8 @@ struct FrontierPlanner::Search {
   int given_up = 0;
   int infeasible = 0;
   bool is_over_budget = false;
+  /// The shortest affordable way so far: what lies farther off even straight cannot be nearest.
+  double nearest_m = std::numeric_limits<double>::infinity();
 
   Search(FrontierPlanner& owner, const PlanRequest& asked)
       : planner(owner),
@@ -146,11 +151,19 @@ struct FrontierPlanner::Search {
     return voxels;
   }
 
+  /// What a sensor of few rows sees far away has no free place right beside it: where nothing else
+  /// is left, places farther from their frontier do.
   void collectCandidates() {
-    const PlaceFinder places(kPlaceReach_m, kPlaceStep_m);
+    collectCandidates(kPlaceReach_m, kPlaceStep_m);
+    if (candidates.empty()) collectCandidates(kWideReach_m, kWideStep_m);
+  }
+
+  void collectCandidates(double reach_m, double step_m) {
+    const PlaceFinder places(reach_m, step_m);
     Crossed crossed;
     for (const Eigen::Vector3d& voxel : voxelsInOrder()) {
       if (static_cast<int>(candidates.size()) >= params.candidates) break;
+      if (!ranksByUtility() && (voxel - root).norm() - reach_m >= nearest_m) break;
       if (crossed.covers(voxel) || !isCluster(voxel)) continue;
       ++result.stats.samples;
       const auto place = places.findRoomy(voxel, space);
@@ -172,6 +185,7 @@ struct FrontierPlanner::Search {
       ++given_up;
       return;
     }
+    if (!ranksByUtility() && (place - root).norm() >= nearest_m) return;
     Candidate candidate{voxel, {}, 0.0, 0.0, {}};
     if (ranksByUtility()) candidate.gain_m3 = gainAt(place);
     if (ranksByUtility() ? candidate.gain_m3 < params.gain_min_m3 : !seesEnough(place)) return;
@@ -188,6 +202,7 @@ struct FrontierPlanner::Search {
     constexpr double kAtOnce_s = 1.0;  // a place beside the robot would be worth infinitely much
     candidate.score =
         ranksByUtility() ? candidate.gain_m3 / (kAtOnce_s + travelTime(length)) : -length;
+    if (length < nearest_m && fitsBudget(length, place)) nearest_m = length;
     candidates.push_back(std::move(candidate));
   }
 
@@ -198,6 +213,7 @@ struct FrontierPlanner::Search {
   [[nodiscard]] bool fitsBudget(double length_m, const Eigen::Vector3d& end) {
     const double straight_m = (request.home.position - end).norm();
     if (travelTime(length_m + straight_m) > request.remaining_s) return false;
+    if (travelTime(2.0 * length_m + planner.trail_.metres()) <= request.remaining_s) return true;
     return travelTime(length_m + metresHome(length_m, end)) <= request.remaining_s;
   }
 
