@@ -207,7 +207,8 @@ void Mission::Impl::checkAhead() {
 
 void Mission::Impl::checkEndurance() {
   if (goal != Goal::kExplore && goal != Goal::kGoTo) return;
-  if (guard.margin(way_home_s) < 0.0) goHome("home by endurance: the way home takes what is left");
+  if (guard.margin(way_home_s) < 0.0)
+    goHome("home by endurance: the way home takes what is left", HomeCause::kEndurance);
 }
 
 bool Mission::Impl::isAtRest() const {

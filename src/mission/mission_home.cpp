@@ -72,7 +72,7 @@ void Mission::Impl::refreshWayHome() {
     const auto by_route = wayByRoute();
     const bool route_wins = by_route && (!by_trail || by_route->travel_s < by_trail->travel_s);
     if (!by_route && !by_trail) {
-      if (goal == Goal::kExplore) goHome("no known way home is clear any more");
+      if (goal == Goal::kExplore) goHome("no known way home is clear any more", HomeCause::kOther);
       return;
     }
     const WayHome& best = route_wins ? *by_route : *by_trail;
@@ -112,7 +112,8 @@ bool Mission::Impl::isTrailClear(const Path& path, const Eigen::Vector3d& box) {
   return navigation::checkPath(spaceOf(box), path, given_zones, {}).isFree();
 }
 
-void Mission::Impl::goHome(const std::string& why) {
+void Mission::Impl::goHome(const std::string& why, HomeCause cause) {
+  may_look_again = cause == HomeCause::kEndurance && goal == Goal::kExplore;
   goal = Goal::kHome;
   pending.reset();
   running.reset();

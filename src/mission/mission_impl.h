@@ -29,6 +29,7 @@ enum class Goal { kNone, kExplore, kHome, kGoTo };
 struct RunningJob {
   std::uint64_t number = 0;
   bool explore = true;
+  bool is_second_look = false;  ///< On the way home: is something affordable again?
   bool from_standstill = false;
   bool by_navigation = false;  ///< The mission's own search for a way home, not the planner's.
   double asked_s = 0.0;
@@ -73,6 +74,9 @@ constexpr double kBodyShare = 0.5;  // of the safety box: returns from there are
 
 /// A place as messages name it, metres: "(1.0, 2.0, 3.0)".
 [[nodiscard]] std::string placeOf(const Eigen::Vector3d& point);
+
+/// Why the robot goes home. On the way it looks again for what it can afford if it was endurance.
+enum class HomeCause { kEndurance, kOther };
 
 /// State and steps of the mission. Steps that belong together share a .cpp:
 /// mission_inputs, mission_goto, mission_goto_plans, mission_cycle, mission_ground, mission_plans,
@@ -161,6 +165,7 @@ struct Mission::Impl {
   void askForPlan();
   [[nodiscard]] bool wantsPlan() const;
   [[nodiscard]] bool wantsPlanInFlight() const;
+  [[nodiscard]] bool wantsSecondLook() const;
   void makeJob();
   std::optional<Command> accept(const PlanOutcome& outcome, double now_s);
   /// The planner's path with the full safety box; where the robot's margin already touches
@@ -172,6 +177,7 @@ struct Mission::Impl {
                                                    const std::vector<NoGoZone>& zones,
                                                    const AxisAlignedBox& bounds);
   void acceptExploration(const RunningJob& job, const PlanOutcome& outcome);
+  void acceptSecondLook(const RunningJob& job, const PlanOutcome& outcome);
   void acceptWayHome(const RunningJob& job, const planners::PlanResult& home);
   void onNoPlan(const RunningJob& job, const planners::PlanResult& plan);
   void onFailedPlan(const std::string& why);
@@ -192,7 +198,7 @@ struct Mission::Impl {
   [[nodiscard]] std::optional<WayHome> wayByTrail();
   [[nodiscard]] std::optional<WayHome> wayByRoute() const;
   void refreshWayHome();
-  void goHome(const std::string& why);
+  void goHome(const std::string& why, HomeCause cause);
   void stepHome();
   void launchHome();
   void onNoWayHome(const RunningJob& job, const planners::PlanResult& home);
@@ -266,6 +272,8 @@ struct Mission::Impl {
   double latency_s = 0.0;
   int failures = 0;
   bool wants_way_home = false;
+  bool may_look_again = false;  ///< On this way home.
+  double next_look_s = 0.0;
   bool asks_navigation = false;  ///< The next way home is the mission's own search.
   std::string home_obstacle;     ///< What lay between the robot and home at the last try.
   planners::PathOutcome last_outcome = planners::PathOutcome::kNone;

@@ -172,7 +172,7 @@ Answer Mission::Impl::pause() {
 Answer Mission::Impl::goHomeAsAsked() {
   if (!home_graph) return {false, "there is no home yet: start the mission first"};
   if (state == MissionState::kEStop) return {false, "emergency stop is on: start releases it"};
-  goHome("home as asked");
+  goHome("home as asked", HomeCause::kOther);
   return {true, "going home"};
 }
 

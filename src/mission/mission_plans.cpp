@@ -17,7 +17,9 @@ constexpr double kAskBeforeEnd_s = 0.5;  // on top of plan_ahead_s
 constexpr double kLatencySlack = 1.3;
 constexpr double kSpliceClearance_m = 1.0;
 constexpr double kCutStep_m = 1.0;
-constexpr double kShortestCut_m = 2.0;  // less is not worth the way
+constexpr double kLookPeriod_s = 10.0;     // between two looks on the way home
+constexpr double kLookBeforeHome_s = 5.0;  // not with home right ahead
+constexpr double kShortestCut_m = 2.0;     // less is not worth the way
 constexpr double kStartGap_m = 0.5;
 constexpr double kCornerTolerances_m[] = {0.6, 0.3};
 constexpr double kLeastTolerance_m = 0.1;
@@ -43,9 +45,16 @@ bool Mission::Impl::wantsPlanInFlight() const {
 bool Mission::Impl::wantsPlan() const {
   if (goal == Goal::kGoTo) return false;
   if (!inputs_ok || pending || running || backs_off || now < next_ask_s) return false;
-  if (goal == Goal::kHome) return wants_way_home && (active || isAtRest());
+  if (goal == Goal::kHome) return wants_way_home ? active || isAtRest() : wantsSecondLook();
   if (active) return wantsPlanInFlight();
   return scans >= kScansBeforePlan && isAtRest();
+}
+
+/// The way home is flown in less time than was feared, and leads past other places.
+bool Mission::Impl::wantsSecondLook() const {
+  return may_look_again && active && !active->blockedAt() && now >= next_look_s &&
+         now >= last_accept_s + kLookPeriod_s && guard.margin(way_home_s) > 0.0 &&
+         active->endTime() - now > params.plan_ahead_s + kLookBeforeHome_s;
 }
 
 void Mission::Impl::askForPlan() {
@@ -59,7 +68,8 @@ void Mission::Impl::makeJob() {
   status.known_volume_m3 = static_cast<double>(frozen->freeVoxels()) * voxel * voxel * voxel;
   RunningJob job;
   job.number = next_job++;
-  job.explore = goal == Goal::kExplore;
+  job.is_second_look = goal == Goal::kHome && !wants_way_home;
+  job.explore = goal == Goal::kExplore || job.is_second_look;
   job.from_standstill = !active;
   job.asked_s = now;
   job.takes_over_s = now;
@@ -109,6 +119,7 @@ std::optional<Command> Mission::Impl::accept(const PlanOutcome& outcome, double 
     status.last_plan_status = planners::toText(outcome.plan.status);
     remaining_targets = outcome.plan.remaining;
     if (goal == Goal::kExplore) acceptExploration(job, outcome);
+    if (goal == Goal::kHome) acceptSecondLook(job, outcome);
   } else if (goal == Goal::kHome) {
     acceptWayHome(job, outcome.home);
   } else if (goal == Goal::kGoTo) {
@@ -173,6 +184,29 @@ void Mission::Impl::acceptExploration(const RunningJob& job, const PlanOutcome& 
   status.reason = outcome.plan.reason;
 }
 
+/// Only what can be flown as a whole, with a known way home from its end, is worth turning round.
+void Mission::Impl::acceptSecondLook(const RunningJob& job, const PlanOutcome& outcome) {
+  next_look_s = now + kLookPeriod_s;
+  if (outcome.plan.status == planners::PlanStatus::kNothingToGain) may_look_again = false;
+  const bool is_usable = outcome.plan.status == planners::PlanStatus::kOk &&
+                         outcome.home.status == planners::PlanStatus::kOk && active &&
+                         now <= job.takes_over_s + 1e-6;
+  if (!is_usable || !isWalkable(outcome.plan.path) || !checkProposal(outcome.plan.path).isFree() ||
+      !isWayClear(outcome.home.path, robot.box_m))
+    return;
+  const Path whole = joined(job, outcome.plan.path);
+  const double there_s = navigation::travelTime(whole, limitsOf(robot));
+  const double home_s = navigation::travelTime(outcome.home.path, limitsOf(robot));
+  if (guard.marginAfter(there_s, home_s) < 0.0) return;
+  goal = Goal::kExplore;
+  fly(whole, outcome.plan.kind, robot.box_m);
+  noteRoute({}, outcome.home);
+  failures = 0;
+  last_accept_s = now;
+  last_outcome = planners::PathOutcome::kReplaced;
+  status.reason = "affordable again on the way home: " + outcome.plan.reason;
+}
+
 double Mission::Impl::affordableLength(const Path& path, const std::optional<Path>& home_path) {
   const MotionLimits limits_of_robot = limitsOf(robot);
   const double length = lengthOf(path);
@@ -198,7 +232,7 @@ void Mission::Impl::refuse(const std::string& why, planners::PathOutcome outcome
     return;
   }
   if (outcome == planners::PathOutcome::kRejectedBudget && ++failures >= 3)
-    return goHome("home by endurance: no further path leaves a way home");
+    return goHome("home by endurance: no further path leaves a way home", HomeCause::kEndurance);
   onFailedPlan(why);
 }
 
@@ -209,15 +243,15 @@ void Mission::Impl::onNoPlan(const RunningJob& job, const planners::PlanResult& 
     return;
   }
   if (plan.status == planners::PlanStatus::kNothingToGain)
-    return goHome("explored: " + plan.reason);
+    return goHome("explored: " + plan.reason, HomeCause::kOther);
   if (plan.status == planners::PlanStatus::kBudgetSaysHome)
-    return goHome("home by endurance: " + plan.reason);
+    return goHome("home by endurance: " + plan.reason, HomeCause::kEndurance);
   onFailedPlan(std::string(planners::toText(plan.status)) + ": " + plan.reason);
 }
 
 void Mission::Impl::onFailedPlan(const std::string& why) {
   next_ask_s = now + kRetryPeriod_s;
-  if (++failures >= kFailuresBeforeHome) return goHome("no plan found: " + why);
+  if (++failures >= kFailuresBeforeHome) return goHome("no plan found: " + why, HomeCause::kOther);
   hold_since_s = now;
   enter(MissionState::kHold, "no plan (" + why + "): trying again");
 }

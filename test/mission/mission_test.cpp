@@ -148,6 +148,67 @@ TEST_F(CorridorMission, TurnsForHomeWhenTheWayHomeTakesWhatIsLeft) {
   EXPECT_NE(flight.mission().status().end_reason.find("endurance"), std::string::npos);
 }
 
+/// At the far end nothing is affordable; half the way back something is.
+class AffordableAgain : public CorridorMission {
+ protected:
+  void SetUp() override {
+    CorridorMission::SetUp();
+    planner_.on_plan = [this](const planners::PlanRequest& request) {
+      const double x = request.pose.position.x();
+      was_at_end_ = was_at_end_ || x > 19.5;
+      if (was_at_end_ && (looked_again_ || x > 12.0))
+        return ScriptedPlanner::none(PlanStatus::kBudgetSaysHome);
+      looked_again_ = was_at_end_;
+      Path path = along(x, std::min(20.0, x + 4.0));
+      path.front() = request.pose;
+      return ScriptedPlanner::path(path, PathKind::kLocal);
+    };
+    planner_.on_home = [](const planners::PlanRequest& request) {
+      return ScriptedPlanner::path({request.pose, kStart}, PathKind::kHome);
+    };
+  }
+  /// Whether the robot explored again after it had turned for home.
+  bool exploresOnTheWayHome(ScriptedFlight& flight) {
+    bool was_going_home = false;
+    bool explores = false;
+    while (flight.mission().status().state != MissionState::kDone && flight.now() < 120.0) {
+      flight.step();
+      was_going_home = was_going_home || flight.mission().status().state == MissionState::kHome;
+      explores =
+          explores || (was_going_home && flight.mission().status().state == MissionState::kExplore);
+    }
+    return explores;
+  }
+  bool was_at_end_ = false;
+  bool looked_again_ = false;
+};
+
+TEST_F(AffordableAgain, OnTheWayHomeWhatCameIntoReachIsExplored) {
+  RobotModel slow = test::smallRobot();
+  slow.speed_max_mps = 0.5;  // some looks fit on the way
+  ScriptedFlight flight(test::corridorWorld(30.0), kStart, planner_, {}, 1, slow);
+  ASSERT_TRUE(flight.start().accepted);
+  EXPECT_TRUE(exploresOnTheWayHome(flight));
+  EXPECT_EQ(flight.mission().status().state, MissionState::kDone);
+  EXPECT_LT(distance(flight.state().pose, kStart), 1.0);
+  EXPECT_NE(flight.mission().status().end_reason.find("endurance"), std::string::npos);
+}
+
+TEST_F(AffordableAgain, NotWhatLeavesNoWayHome) {
+  RobotModel slow = test::smallRobot();
+  slow.speed_max_mps = 0.5;
+  ScriptedFlight flight(test::corridorWorld(30.0), kStart, planner_, {}, 1, slow);
+  planner_.on_home = [](const planners::PlanRequest& request) {
+    // From where the robot would turn round, home is far.
+    const bool is_far = request.pose.yaw == 0.0 && request.pose.position.x() > 12.0;
+    return is_far ? ScriptedPlanner::none(PlanStatus::kNoPath)
+                  : ScriptedPlanner::path({request.pose, kStart}, PathKind::kHome);
+  };
+  ASSERT_TRUE(flight.start().accepted);
+  EXPECT_FALSE(exploresOnTheWayHome(flight));
+  EXPECT_EQ(flight.mission().status().state, MissionState::kDone);
+}
+
 TEST_F(CorridorMission, StopsBeforeNewObstacleAndSaysWhy) {
   exploreUpTo(25.0);
   ScriptedFlight flight(test::corridorWorld(30.0), kStart, planner_);

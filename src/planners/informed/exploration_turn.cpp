@@ -123,6 +123,7 @@ void ExplorationTurn::close(VertexId vertex, const Refusals& refusals) {
   VertexLabel& label = growth_.graph().update(vertex);
   label.is_explored = true;
   label.is_over_budget = is_over_budget;
+  label.closed_from = judge_.root;
   label.best_gain_m3 = refusals.best_gain_m3;
   label.closed_voxels.clear();
   for (const FrontierVoxel& voxel : label.frontier) label.closed_voxels.push_back(voxel.voxel);

@@ -138,8 +138,23 @@ struct InformedPlanner::Search {
     return params.eta_factor * metres / planner.robot_.speed_max_mps <= request.remaining_s;
   }
 
+  /// What was too far from where the robot was may be near enough from here.
+  void reopenAffordable() {
+    ReachabilityGraph& graph = planner.growth_.graph();
+    for (const VertexId vertex : graph.vertices()) {
+      VertexLabel& label = graph.update(vertex);
+      if (!label.is_over_budget || label.closed_because.empty()) continue;
+      const Eigen::Vector3d& place = graph.graph().position(vertex);
+      const double straight_m = (place - root).norm() + (request.home.position - place).norm();
+      if ((label.closed_from - root).norm() < params.range_m || !fitsMetres(straight_m)) continue;
+      label.closed_because.clear();
+      label.is_explored = label.is_over_budget = false;
+    }
+  }
+
   void explore() {
     const Stopwatch watch;
+    reopenAffordable();
     const Region region =
         regionAt(*request.map, {root, request.pose.yaw}, params.branch_distance_m);
     CandidateJudge judge{request, planner.view_,

@@ -27,6 +27,7 @@ struct VertexLabel {
   bool is_explored = false;             ///< exp
   std::string closed_because;           ///< Why it is explored though voxels are left.
   bool is_over_budget = false;          ///< Closed for want of time.
+  Eigen::Vector3d closed_from = Eigen::Vector3d::Zero();  ///< Where the robot was then.
 
   bool is_measured = false;                    ///< Whether the clearances are filled in.
   std::uint64_t surveyed = 0;                  ///< The frontier's change that W was collected at.
