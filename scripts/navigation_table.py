@@ -65,7 +65,7 @@ def flown(arguments, problem, method, home_known):
 
 
 def cells(values):
-    return "{:.2f} | {:.1f} | {:.1f} | {:.1f}".format(*values) if values else "| | | "
+    return "{:.3f} | {:.1f} | {:.1f} | {:.1f}".format(*values) if values else "| | | "
 
 
 def print_table(arguments):
