@@ -178,6 +178,7 @@ struct Mission::Impl {
                                                    const AxisAlignedBox& bounds);
   void acceptExploration(const RunningJob& job, const PlanOutcome& outcome);
   void acceptSecondLook(const RunningJob& job, const PlanOutcome& outcome);
+  void flyProposal(const Path& path, const Path& rest, const PlanOutcome& outcome);
   void acceptWayHome(const RunningJob& job, const planners::PlanResult& home);
   void onNoPlan(const RunningJob& job, const planners::PlanResult& plan);
   void onFailedPlan(const std::string& why);

@@ -176,8 +176,13 @@ void Mission::Impl::acceptExploration(const RunningJob& job, const PlanOutcome& 
   if (affordable < length && (!is_local || affordable < kShortestCut_m))
     return refuse("refused the planner's path: no way home from its end fits the endurance",
                   planners::PathOutcome::kRejectedBudget);
-  fly(slice(whole, 0.0, affordable), outcome.plan.kind, robot.box_m);
-  noteRoute(slice(whole, affordable, length), outcome.home);
+  flyProposal(slice(whole, 0.0, affordable), slice(whole, affordable, length), outcome);
+}
+
+/// `rest`: of the planner's path, beyond `path`; home from its end is known from there on.
+void Mission::Impl::flyProposal(const Path& path, const Path& rest, const PlanOutcome& outcome) {
+  fly(path, outcome.plan.kind, robot.box_m);
+  noteRoute(rest, outcome.home);
   failures = 0;
   last_accept_s = now;
   last_outcome = planners::PathOutcome::kReplaced;
@@ -199,11 +204,7 @@ void Mission::Impl::acceptSecondLook(const RunningJob& job, const PlanOutcome& o
   const double home_s = navigation::travelTime(outcome.home.path, limitsOf(robot));
   if (guard.marginAfter(there_s, home_s) < 0.0) return;
   goal = Goal::kExplore;
-  fly(whole, outcome.plan.kind, robot.box_m);
-  noteRoute({}, outcome.home);
-  failures = 0;
-  last_accept_s = now;
-  last_outcome = planners::PathOutcome::kReplaced;
+  flyProposal(whole, {}, outcome);
   status.reason = "affordable again on the way home: " + outcome.plan.reason;
 }
 

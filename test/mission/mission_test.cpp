@@ -179,14 +179,17 @@ class AffordableAgain : public CorridorMission {
     }
     return explores;
   }
+  static RobotModel slowRobot() {
+    RobotModel slow = test::smallRobot();
+    slow.speed_max_mps = 0.5;  // some looks fit on the way
+    return slow;
+  }
   bool was_at_end_ = false;
   bool looked_again_ = false;
 };
 
 TEST_F(AffordableAgain, OnTheWayHomeWhatCameIntoReachIsExplored) {
-  RobotModel slow = test::smallRobot();
-  slow.speed_max_mps = 0.5;  // some looks fit on the way
-  ScriptedFlight flight(test::corridorWorld(30.0), kStart, planner_, {}, 1, slow);
+  ScriptedFlight flight(test::corridorWorld(30.0), kStart, planner_, {}, 1, slowRobot());
   ASSERT_TRUE(flight.start().accepted);
   EXPECT_TRUE(exploresOnTheWayHome(flight));
   EXPECT_EQ(flight.mission().status().state, MissionState::kDone);
@@ -195,9 +198,7 @@ TEST_F(AffordableAgain, OnTheWayHomeWhatCameIntoReachIsExplored) {
 }
 
 TEST_F(AffordableAgain, NotWhatLeavesNoWayHome) {
-  RobotModel slow = test::smallRobot();
-  slow.speed_max_mps = 0.5;
-  ScriptedFlight flight(test::corridorWorld(30.0), kStart, planner_, {}, 1, slow);
+  ScriptedFlight flight(test::corridorWorld(30.0), kStart, planner_, {}, 1, slowRobot());
   planner_.on_home = [](const planners::PlanRequest& request) {
     // From where the robot would turn round, home is far.
     const bool is_far = request.pose.yaw == 0.0 && request.pose.position.x() > 12.0;

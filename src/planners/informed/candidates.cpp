@@ -60,9 +60,7 @@ std::vector<Candidate> CandidateJudge::judge(const std::vector<FrontierSample>& 
                                              Refusals& refusals) const {
   std::vector<Candidate> candidates;
   for (const FrontierSample& sample : samples) {
-    const double straight_m =
-        (sample.place - root).norm() + (request.home.position - sample.place).norm();
-    if (!fits_metres(straight_m)) {
+    if (!is_in_reach(sample.place)) {
       refusals.over_budget.insert(sample.vertex);
       refusals.vain.push_back(sample.place);
       continue;

@@ -134,6 +134,11 @@ struct InformedPlanner::Search {
            fitsMetres(length_m + lengthOf(answer.path));
   }
 
+  /// Whether straight ways there and from there home would fit.
+  [[nodiscard]] bool isInReach(const Eigen::Vector3d& place) const {
+    return fitsMetres((place - root).norm() + (request.home.position - place).norm());
+  }
+
   [[nodiscard]] bool fitsMetres(double metres) const {
     return params.eta_factor * metres / planner.robot_.speed_max_mps <= request.remaining_s;
   }
@@ -144,9 +149,9 @@ struct InformedPlanner::Search {
     for (const VertexId vertex : graph.vertices()) {
       VertexLabel& label = graph.update(vertex);
       if (!label.is_over_budget || label.closed_because.empty()) continue;
-      const Eigen::Vector3d& place = graph.graph().position(vertex);
-      const double straight_m = (place - root).norm() + (request.home.position - place).norm();
-      if ((label.closed_from - root).norm() < params.range_m || !fitsMetres(straight_m)) continue;
+      if ((label.closed_from - root).norm() < params.range_m ||
+          !isInReach(graph.graph().position(vertex)))
+        continue;
       label.closed_because.clear();
       label.is_explored = label.is_over_budget = false;
     }
@@ -157,11 +162,12 @@ struct InformedPlanner::Search {
     reopenAffordable();
     const Region region =
         regionAt(*request.map, {root, request.pose.yaw}, params.branch_distance_m);
-    CandidateJudge judge{request, planner.view_,
-                         params,  planner.tried_,
-                         space,   root,
-                         region,  0.0,
-                         {},      [this](double metres) { return fitsMetres(metres); }};
+    CandidateJudge judge{
+        request, planner.view_,
+        params,  planner.tried_,
+        space,   root,
+        region,  0.0,
+        {},      [this](const Eigen::Vector3d& place) { return isInReach(place); }};
     ExplorationTurn turn(
         planner.growth_, survey, judge, request.rng.fork("sampler"),
         [this](const Candidate& candidate) {

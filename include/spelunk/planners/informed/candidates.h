@@ -52,8 +52,8 @@ struct CandidateJudge {
   /// the motion planner is to go straight from the root.
   std::function<graph::Polyline(graph::VertexId)> way_to_vertex;
 
-  /// Whether a flight of so many metres fits the endurance.
-  std::function<bool(double)> fits_metres;
+  /// Whether straight ways to a place and from it home would fit the endurance.
+  std::function<bool(const Eigen::Vector3d&)> is_in_reach;
 
   /// Cubic metres of unknown space seen from a place.
   [[nodiscard]] double gainAt(const Eigen::Vector3d& place) const;
