@@ -10,6 +10,13 @@ double longestRange(const RobotModel& robot) {
   return range;
 }
 
+bool seesAllAround(const RobotModel& robot) {
+  constexpr double kFullCircle_deg = 359.0;
+  return std::any_of(
+      robot.sensor_models.begin(), robot.sensor_models.end(),
+      [](const SensorModel& sensor) { return sensor.fov_horizontal_deg >= kFullCircle_deg; });
+}
+
 RobotKind kindOf(const RobotModel& robot) {
   return robot.kind == "legged" ? RobotKind::kLegged : RobotKind::kAerial;
 }

@@ -44,15 +44,6 @@ TEST(ExplorationGain, HardlyDependsOnHowFinelyPathsAreSampled) {
   EXPECT_NEAR(fine / coarse, 1.0, 0.15);
 }
 
-TEST(ExplorationGain, KnowsWhereTheRobotHasBeen) {
-  const std::vector<StampedPose> trail{{0.0, {{0, 0, 0}, 0.0}}, {2.0, {{1, 0, 0}, 0.0}}};
-  EXPECT_TRUE(wasVisited(trail, {1.5, 1.0, 0.0}, 1.5));
-  EXPECT_FALSE(wasVisited(trail, {1.5, 1.5, 0.0}, 1.5));
-  EXPECT_FALSE(wasVisited(trail, {1.0, 0.0, 6.0}, 1.5)) << "another level";
-  EXPECT_FALSE(wasVisited(trail, {1.0, 0.0, 0.0}, 0.0)) << "switched off";
-  EXPECT_FALSE(wasVisited({}, {0.0, 0.0, 0.0}, 1.5));
-}
-
 TEST(ExplorationTime, TakesBothWaysOffTheRemainingEndurance) {
   EXPECT_DOUBLE_EQ(explorationTime(100.0, 30.0, 50.0), 20.0);
   EXPECT_DOUBLE_EQ(explorationTime(60.0, 30.0, 50.0), -20.0);  // the way out counts too

@@ -73,5 +73,14 @@ TEST(Visits, AreMadeWhenTheRobotStandsThere) {
   EXPECT_EQ(visits.takeMade(request).size(), 1U);
 }
 
+TEST(Visits, KnowsWhereTheRobotHasBeen) {
+  const std::vector<StampedPose> trail{{0.0, {{0, 0, 0}, 0.0}}, {2.0, {{1, 0, 0}, 0.0}}};
+  EXPECT_TRUE(wasVisited(trail, {1.5, 1.0, 0.0}, 1.5));
+  EXPECT_FALSE(wasVisited(trail, {1.5, 1.5, 0.0}, 1.5));
+  EXPECT_FALSE(wasVisited(trail, {1.0, 0.0, 6.0}, 1.5)) << "another level";
+  EXPECT_FALSE(wasVisited(trail, {1.0, 0.0, 0.0}, 0.0)) << "switched off";
+  EXPECT_FALSE(wasVisited({}, {0.0, 0.0, 0.0}, 1.5));
+}
+
 }  // namespace
 }  // namespace spelunk::planners

@@ -60,6 +60,8 @@ struct RobotModel {
 
 /// How far the farthest-seeing sensor reaches, metres; 0 without sensors.
 [[nodiscard]] double longestRange(const RobotModel& robot);
+/// Whether a sensor of it looks all round, so that its heading does not matter.
+[[nodiscard]] bool seesAllAround(const RobotModel& robot);
 [[nodiscard]] MotionLimits limitsOf(const RobotModel& robot);
 
 /// Distance to a standstill from `speed_mps`, reaction time included.

@@ -20,13 +20,6 @@ constexpr int kSamplesBetweenClockReads = 64;
 const Eigen::Vector3d kWindowSlack_m(25.0, 25.0, 1.0);
 constexpr double kSamePlace_m = 0.1;  // what is left of a shorter edge is none
 
-bool seesAllAround(const RobotModel& robot) {
-  constexpr double kFullCircle_deg = 359.0;
-  return std::any_of(
-      robot.sensor_models.begin(), robot.sensor_models.end(),
-      [](const SensorModel& sensor) { return sensor.fov_horizontal_deg >= kFullCircle_deg; });
-}
-
 AxisAlignedBox everywhere(const map::FrozenMap& map, const AxisAlignedBox& bounds) {
   return intersection(map.knownBounds(), bounds);
 }

@@ -33,13 +33,6 @@ Eigen::Vector3d exploringDirection(const PlanRequest& request, double window_s) 
   return {std::cos(request.pose.yaw), std::sin(request.pose.yaw), 0.0};
 }
 
-bool wasVisited(const std::vector<StampedPose>& trail, const Eigen::Vector3d& place,
-                double radius_m) {
-  return std::any_of(trail.begin(), trail.end(), [&](const StampedPose& stamped) {
-    return (stamped.pose.position - place).norm() < radius_m;
-  });
-}
-
 double dissimilarity(const graph::Polyline& path, const Eigen::Vector3d& direction,
                      double spacing_m) {
   const graph::Polyline sampled = graph::resampled(path, spacing_m);

@@ -13,6 +13,7 @@
 #include "spelunk/planners/gbplanner/presumed_piece.h"
 #include "spelunk/planners/shared/flight_line.h"
 #include "spelunk/planners/shared/free_start.h"
+#include "spelunk/planners/shared/visits.h"
 
 namespace spelunk::planners::gbplanner {
 namespace {

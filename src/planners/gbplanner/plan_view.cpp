@@ -4,6 +4,7 @@
 
 #include "spelunk/common/contract.h"
 #include "spelunk/planners/gbplanner/exploration_gain.h"
+#include "spelunk/planners/shared/visits.h"
 
 namespace spelunk::planners::gbplanner {
 namespace {

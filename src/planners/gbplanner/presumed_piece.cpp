@@ -7,9 +7,7 @@ namespace {
 
 using graph::VertexId;
 
-constexpr double kWorthwhile_m = 3.0;  // nearer by less is no progress
 constexpr double kCost = 0.5;          // of a metre flown, in metres nearer
-constexpr double kClosedRadius_m = 2.5;
 
 }  // namespace
 
@@ -23,7 +21,7 @@ graph::Polyline pieceTowards(const LocalGraph& local, const map::PresumedWays& t
     const VertexId vertex{static_cast<std::uint32_t>(i)};
     const Eigen::Vector3d& at = local.graph.position(vertex);
     const double nearer = whole - to_target.distanceTo(at);
-    if (!ways.reaches(vertex) || nearer < kWorthwhile_m || tried.findRefusal(at)) continue;
+    if (!ways.reaches(vertex) || nearer < kPresumedProgress_m || tried.findRefusal(at)) continue;
     const double score = nearer - kCost * ways.distanceTo(vertex);
     if (score <= best_score) continue;
     best_score = score;
@@ -33,13 +31,6 @@ graph::Polyline pieceTowards(const LocalGraph& local, const map::PresumedWays& t
   if (!best) return piece;
   for (const VertexId id : ways.pathTo(*best)) piece.push_back(local.graph.position(id));
   return piece;
-}
-
-std::optional<map::ClosedPlace> placeAhead(const std::vector<Eigen::Vector3d>& way) {
-  for (const Eigen::Vector3d& at : way)
-    if ((at - way.front()).norm() >= kWorthwhile_m) return map::ClosedPlace{at, kClosedRadius_m};
-  if (way.empty()) return std::nullopt;
-  return map::ClosedPlace{way.back(), kClosedRadius_m};
 }
 
 }  // namespace spelunk::planners::gbplanner

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "spelunk/planners/shared/flight_line.h"
+#include "spelunk/planners/shared/visits.h"
 
 namespace spelunk::planners::informed {
 
@@ -18,6 +19,10 @@ double CandidateJudge::gainAt(const Eigen::Vector3d& place) const {
 
 bool CandidateJudge::isWorthIt(Candidate& candidate, double& bits, Refusals& refusals) const {
   if ((candidate.sample.place - root).norm() < kHere_m) {
+    ++refusals.gainless;
+    return false;
+  }
+  if (wasVisited(request.trail, candidate.sample.place, params.visited_radius_m)) {
     ++refusals.gainless;
     return false;
   }
@@ -65,7 +70,8 @@ std::vector<Candidate> CandidateJudge::judge(const std::vector<FrontierSample>& 
       refusals.vain.push_back(sample.place);
       continue;
     }
-    Candidate candidate{sample, {}, 0.0, 0.0, {}};
+    Candidate candidate;
+    candidate.sample = sample;
     UtilityTerms terms;
     if (!isWorthIt(candidate, terms.entropy_end_bits, refusals)) {
       refusals.vain.push_back(sample.place);
@@ -76,7 +82,7 @@ std::vector<Candidate> CandidateJudge::judge(const std::vector<FrontierSample>& 
       refusals.vain.push_back(sample.place);
       continue;
     }
-    terms.length_m = graph::lengthOf(candidate.way);
+    terms.length_m = candidate.whole_way_m = graph::lengthOf(candidate.way);
     if (terms.length_m > way_max_m) {
       ++refusals.far;
       continue;

@@ -19,13 +19,15 @@ constexpr int kUnaffordableMax = 30;   // candidates; what is farther is not aff
 ExplorationTurn::ExplorationTurn(GraphGrowth& growth, const FrontierSurvey& survey,
                                  CandidateJudge& judge, Rng rng,
                                  std::function<bool(const Candidate&)> fits_budget,
-                                 std::function<bool(graph::VertexId)> scout)
+                                 std::function<bool(graph::VertexId)> scout,
+                                 std::function<std::optional<Candidate>()> approach)
     : growth_(growth),
       survey_(survey),
       judge_(judge),
       rng_(rng),
       fits_budget_(std::move(fits_budget)),
-      scout_(std::move(scout)) {}
+      scout_(std::move(scout)),
+      approach_(std::move(approach)) {}
 
 std::optional<Choice> ExplorationTurn::chooseFrom(VertexId current) {
   judge_.way_to_vertex = [](VertexId) { return graph::Polyline{}; };
@@ -42,10 +44,21 @@ std::optional<Choice> ExplorationTurn::chooseFrom(VertexId current) {
   };
   // Far frontier counts too, or all that is near and hardly worth it would come before it.
   static_cast<void>(scout_(current));
+  auto far = chooseFar(current);
+  auto approach = approach_();
+  const auto worth = [&](const Candidate& candidate) {
+    return worthOf(candidate.gain_m3, candidate.whole_way_m, judge_.params);
+  };
+  if (approach && fits_budget_(*approach) && (!far || worth(*approach) > worth(*far)))
+    far = std::move(approach);
+  if (!far) return std::nullopt;
+  return Choice{std::move(*far), PathKind::kReposition};
+}
+
+std::optional<Candidate> ExplorationTurn::chooseFar(VertexId current) {
   do {
     for (auto draws = nextRanked(current); !draws.empty(); draws = nextRanked(current))
-      if (auto candidate = tryAll(draws))
-        return Choice{std::move(*candidate), PathKind::kReposition};
+      if (auto candidate = tryAll(draws)) return candidate;
   } while (scout_(current));
   return std::nullopt;
 }

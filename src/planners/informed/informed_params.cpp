@@ -14,6 +14,8 @@ InformedParams InformedParams::resolvedFor(const RobotModel& robot) const {
   resolved.sample_spacing_m *= scale;
   resolved.length_decay /= scale;
   resolved.gain_min_m3 *= scale;
+  if (resolved.visited_radius_m <= 0.0 && seesAllAround(robot))
+    resolved.visited_radius_m = resolved.sample_spacing_m;
   return resolved;
 }
 

@@ -173,7 +173,11 @@ struct InformedPlanner::Search {
         [this](const Candidate& candidate) {
           return fitsBudget(graph::lengthOf(candidate.way), candidate.sample.place);
         },
-        [this](VertexId from) { return scout(from); });
+        [this](VertexId from) { return scout(from); },
+        [&]() {
+          return planner.approaches_.find(
+              planner.scouting_.seenFromAfar(planner.growth_.graph(), planner.view_), judge);
+        });
     std::optional<Choice> choice = turn.chooseFrom(current);
     if (!choice && reopenClosed()) choice = turn.chooseFrom(current);
     turn.fill(result.stats);
@@ -184,11 +188,18 @@ struct InformedPlanner::Search {
     result.stats.vertices += static_cast<int>(choice->candidate.trees.vertices.size());
     propose({pathFrom(request.pose, root, choice->candidate.way), choice->kind,
              choice->candidate.gain_m3, choice->candidate.sample.voxel});
-    planner.visits_.expect({choice->candidate.sample.voxel, choice->candidate.sample.place,
-                            choice->candidate.gain_m3, request.time_s});
-    result.reason = std::string("to a frontier sample in a ") + toText(region) + ", " +
-                    std::to_string(std::lround(choice->candidate.gain_m3)) + " m3 to be seen, " +
-                    std::to_string(std::lround(lengthOf(result.path))) + " m away";
+    const Candidate& chosen = choice->candidate;
+    if (!chosen.is_approach)
+      planner.visits_.expect(
+          {chosen.sample.voxel, chosen.sample.place, chosen.gain_m3, request.time_s});
+    const auto whole = [](double number) { return std::to_string(std::lround(number)); };
+    result.reason = chosen.is_approach ? "towards frontier seen from afar, "
+                                : std::string("to a frontier sample in a ") + toText(region) + ", ";
+    result.reason += whole(chosen.gain_m3) + " m3 to be seen, " + whole(chosen.whole_way_m) +
+                     " m away" +
+                     (chosen.is_approach
+                          ? "; " + whole(lengthOf(result.path)) + " m of the way are known"
+                          : "");
   }
 
   [[nodiscard]] bool scout(VertexId from) {
@@ -328,6 +339,7 @@ InformedPlanner::InformedPlanner(const InformedParams& params, const RobotModel&
       boxes_(robot.box_m),
       growth_(params_),
       scouting_(params_),
+      approaches_(params_),
       tried_(params_.tried_radius_m) {
   require(kindOf(robot) == RobotKind::kAerial, "InformedPlanner: for robots that fly");
 }
@@ -369,6 +381,7 @@ void InformedPlanner::reset() {
   view_.forget();
   growth_ = GraphGrowth(params_);
   scouting_ = Scouting(params_);
+  approaches_.forget();
   tried_ = TriedTargets(params_.tried_radius_m);
   visits_ = {};
   proposal_.reset();

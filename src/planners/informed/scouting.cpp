@@ -22,6 +22,28 @@ bool Scouting::isBarren(const Eigen::Vector3d& place) const {
   });
 }
 
+/// Whether the frontier around a voxel is more than a few voxels.
+bool Scouting::isCluster(const Eigen::Vector3d& voxel, const FrontierView& view) const {
+  const auto cluster = boxAround(voxel, Eigen::Vector3d::Constant(kClusterSide_m));
+  return view.frontier().countWithin(cluster) >=
+         static_cast<std::size_t>(params_.frontier_voxels_min);
+}
+
+std::vector<Eigen::Vector3d> Scouting::seenFromAfar(const ReachabilityGraph& graph,
+                                                    const FrontierView& view) const {
+  std::vector<Eigen::Vector3d> places;
+  for (const Spot& spot : barren_) {
+    if (spot.has_place || !isCluster(spot.place, view)) continue;
+    const auto vertices = graph.vertices();
+    const bool is_covered =
+        std::any_of(vertices.begin(), vertices.end(), [&](const graph::VertexId vertex) {
+          return graph.boxOf(vertex).contains(spot.place);
+        });
+    if (!is_covered) places.push_back(spot.place);
+  }
+  return places;
+}
+
 /// Nearest first.
 std::vector<Eigen::Vector3d> Scouting::uncovered(const Eigen::Vector3d& from,
                                                  const ReachabilityGraph& graph,
@@ -55,18 +77,15 @@ int Scouting::scout(graph::VertexId from, int count, GraphGrowth& growth, const 
     const bool is_covered = std::any_of(
         added.begin(), added.end(), [&](const AxisAlignedBox& box) { return box.contains(voxel); });
     if (is_covered || isBarren(voxel)) continue;
-    const auto cluster = boxAround(voxel, Eigen::Vector3d::Constant(kClusterSide_m));
-    if (view.frontier().countWithin(cluster) <
-        static_cast<std::size_t>(params_.frontier_voxels_min))
-      continue;
+    if (!isCluster(voxel, view)) continue;
     const auto place = places.findRoomy(voxel, space);
     if (!place) {
-      barren_.push_back({voxel, 0.5 * params_.sample_spacing_m});
+      barren_.push_back({voxel, 0.5 * params_.sample_spacing_m, false});
     } else if (join(from, *place, growth, space)) {
       added.push_back(boxAround(*place, Eigen::Vector3d::Constant(2.0 * params_.range_m)));
     } else {
       ++failures;
-      barren_.push_back({voxel, 0.5 * params_.range_m});
+      barren_.push_back({voxel, 0.5 * params_.range_m, true});
     }
   }
   return static_cast<int>(added.size());

@@ -29,4 +29,8 @@ double logUtility(const UtilityTerms& terms, const InformedParams& params) {
          std::log1p(zeta * terms.clearance_m);  // Eq. (4)
 }
 
+double worthOf(double gain_m3, double way_m, const InformedParams& params) {
+  return gain_m3 / (way_m + params.range_m);
+}
+
 }  // namespace spelunk::planners::informed

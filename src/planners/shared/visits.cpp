@@ -20,6 +20,13 @@ bool isMade(const Visit& visit, const PlanRequest& request) {
 
 }  // namespace
 
+bool wasVisited(const std::vector<StampedPose>& trail, const Eigen::Vector3d& place,
+                double radius_m) {
+  return std::any_of(trail.begin(), trail.end(), [&](const StampedPose& stamped) {
+    return (stamped.pose.position - place).norm() < radius_m;
+  });
+}
+
 void Visits::expect(const Visit& visit) {
   expected_.push_back(visit);
   if (expected_.size() > kExpectedMax) expected_.erase(expected_.begin());

@@ -13,10 +13,6 @@ namespace spelunk::planners::gbplanner {
 /// trail says nothing, else from the heading.
 [[nodiscard]] Eigen::Vector3d exploringDirection(const PlanRequest& request, double window_s);
 
-/// Whether the robot has been within `radius_m` of a place; never for a radius of 0.
-[[nodiscard]] bool wasVisited(const std::vector<StampedPose>& trail, const Eigen::Vector3d& place,
-                              double radius_m);
-
 /// S(sigma_i, sigma_exp) of Dang 2020, eq. (1): DTW distance between the path and the straight line
 /// of the same length along `direction` (unit), both sampled every `spacing_m`, times the spacing,
 /// so that it does not depend on how finely paths are sampled. Square metres.

@@ -18,7 +18,9 @@ namespace spelunk::planners::informed {
 /// A frontier sample that can be flown to.
 struct Candidate {
   FrontierSample sample;
-  graph::Polyline way;  ///< From the root of the plan.
+  graph::Polyline way;       ///< From the root of the plan.
+  double whole_way_m = 0.0;  ///< To what it promises.
+  bool is_approach = false;  ///< Its way is only the known first piece of the whole one.
   double gain_m3 = 0.0;
   double log_utility = 0.0;
   navigation::NavigationTrees trees;

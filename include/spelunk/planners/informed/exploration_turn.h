@@ -23,10 +23,12 @@ class ExplorationTurn {
  public:
   ExplorationTurn(GraphGrowth& growth, const FrontierSurvey& survey, CandidateJudge& judge, Rng rng,
                   std::function<bool(const Candidate&)> fits_budget,
-                  std::function<bool(graph::VertexId)> scout);
+                  std::function<bool(graph::VertexId)> scout,
+                  std::function<std::optional<Candidate>()> approach);
 
   /// The best affordable candidate: of the neighbourhood of `current` if that has any, else of the
-  /// nearest vertices that have, else of vertices that `scout` adds. Vertices all of whose frontier
+  /// nearest vertices that have, else of vertices that `scout` adds; or, where that is worth more
+  /// for its way, the `approach` to frontier seen from afar. Vertices all of whose frontier
   /// was looked at in vain are closed with the reason. None if nothing is left.
   [[nodiscard]] std::optional<Choice> chooseFrom(graph::VertexId current);
 
@@ -39,6 +41,7 @@ class ExplorationTurn {
     graph::VertexId vertex{};
     int count = 0;
   };
+  [[nodiscard]] std::optional<Candidate> chooseFar(graph::VertexId current);
   [[nodiscard]] std::vector<Draw> neighbourhoodOf(graph::VertexId current) const;
   [[nodiscard]] std::vector<Draw> nextRanked(graph::VertexId current) const;
   [[nodiscard]] std::optional<Candidate> tryAll(const std::vector<Draw>& draws);
@@ -51,6 +54,7 @@ class ExplorationTurn {
   Rng rng_;
   std::function<bool(const Candidate&)> fits_budget_;
   std::function<bool(graph::VertexId)> scout_;
+  std::function<std::optional<Candidate>()> approach_;
   std::vector<Candidate> seen_;
   BarrenVoxels barren_;
   std::vector<Eigen::Vector3d> vain_;  ///< Places that need not be sampled again in this turn.

@@ -35,6 +35,7 @@ struct InformedParams {
   int iterations = 3000;
   double eta_factor = 1.1;
   double tried_radius_m = 1.5;
+  double visited_radius_m = 0.0;
   double shortcut_length_max_m = 8.0;
 
   template <class Visitor>
@@ -82,6 +83,9 @@ struct InformedParams {
     field("eta_factor", eta_factor, Bounds{1.0, 5.0}, "travel time is length / speed times this");
     field("tried_radius_m", tried_radius_m, Bounds{0.1, 50.0},
           "targets this near to a failed one are the same");
+    field("visited_radius_m", visited_radius_m, Bounds{0.0, 10.0},
+          "places this near to the trail have shown what they can; 0: with range_m 0 and a sensor "
+          "that looks all round sample_spacing_m, else any may show more");
     field("shortcut_length_max_m", shortcut_length_max_m, Bounds{0.5, 200.0},
           "longest straight shortcut of a way along the graph");
   }

@@ -8,6 +8,7 @@
 #include "spelunk/map/configuration_space.h"
 #include "spelunk/navigation/navigator.h"
 #include "spelunk/planners/exploration_planner.h"
+#include "spelunk/planners/informed/approaches.h"
 #include "spelunk/planners/informed/graph_growth.h"
 #include "spelunk/planners/informed/informed_params.h"
 #include "spelunk/planners/informed/scouting.h"
@@ -56,6 +57,7 @@ class InformedPlanner final : public ExplorationPlanner {
   map::ConfigurationSpace boxes_;
   GraphGrowth growth_;
   Scouting scouting_;
+  Approaches approaches_;
   TriedTargets tried_;
   Visits visits_;
   std::optional<Proposal> proposal_;

@@ -19,6 +19,10 @@ class Scouting {
   int scout(graph::VertexId from, int count, GraphGrowth& growth, const FrontierView& view,
             const PlanRequest& request, KnownSpace& space);
 
+  /// Where frontier that no vertex has in its box was found, but no free place beside it.
+  [[nodiscard]] std::vector<Eigen::Vector3d> seenFromAfar(const ReachabilityGraph& graph,
+                                                          const FrontierView& view) const;
+
   void forget() { barren_.clear(); }
   [[nodiscard]] std::size_t barren() const { return barren_.size(); }
 
@@ -26,11 +30,13 @@ class Scouting {
   struct Spot {
     Eigen::Vector3d place;
     double radius_m;
+    bool has_place;
   };
   [[nodiscard]] std::vector<Eigen::Vector3d> uncovered(const Eigen::Vector3d& from,
                                                        const ReachabilityGraph& graph,
                                                        const FrontierView& view,
                                                        const AxisAlignedBox& bounds) const;
+  [[nodiscard]] bool isCluster(const Eigen::Vector3d& voxel, const FrontierView& view) const;
   [[nodiscard]] bool isBarren(const Eigen::Vector3d& place) const;
   [[nodiscard]] bool join(graph::VertexId from, const Eigen::Vector3d& place, GraphGrowth& growth,
                           KnownSpace& space) const;

@@ -32,4 +32,8 @@ struct UtilityTerms {
 /// where U itself would vanish. Minus infinity if there is nothing to gain.
 [[nodiscard]] double logUtility(const UtilityTerms& terms, const InformedParams& params);
 
+/// Cubic metres seen for a metre flown, the look from there counted as a way of d_max: what tells a
+/// leftover from frontier seen from afar.
+[[nodiscard]] double worthOf(double gain_m3, double way_m, const InformedParams& params);
+
 }  // namespace spelunk::planners::informed

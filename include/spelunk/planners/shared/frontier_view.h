@@ -30,6 +30,9 @@ class FrontierView {
   void forget();
 
   [[nodiscard]] const map::FrozenMap& credible() const { return *credible_; }
+  [[nodiscard]] const std::shared_ptr<const map::FrozenMap>& sharedCredible() const {
+    return credible_;
+  }
   [[nodiscard]] const map::FrontierVoxels& frontier() const { return frontier_; }
   [[nodiscard]] double range() const { return params_.range_m; }
 

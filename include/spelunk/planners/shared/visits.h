@@ -15,6 +15,10 @@ struct Visit {
   double chosen_s = 0.0;  ///< Mission time.
 };
 
+/// Whether the robot has been within `radius_m` of a place; never for a radius of 0.
+[[nodiscard]] bool wasVisited(const std::vector<StampedPose>& trail, const Eigen::Vector3d& place,
+                              double radius_m);
+
 /// Targets that are flown to. A plan often begins before the robot has come to the end of the last
 /// one; what a target was worth can only be told when the robot has been there.
 class Visits {
