@@ -39,8 +39,9 @@ class GallerySeenFromAfar : public ::testing::Test {
   void knowLayer() { know({{kKnownEnd, 1.0, 2.25}, {kSeenEnd, 4.0, 2.5}}); }
 
   PlanResult planFrom(double x, const std::vector<double>& flown_x = {}) {
-    ParamTree defaults;
-    const auto planner = makePlanner("informed", defaults, robot_, kResolution);
+    ParamTree tree;
+    tree.setAssignment("informed.visited_radius_m=2", "the test");  // from wall to wall
+    const auto planner = makePlanner("informed", tree, robot_, kResolution);
     request_.map = map_->freeze();
     request_.pose = {{x, 2.5, 2.25}, 0.0};
     request_.time_s = static_cast<double>(flown_x.size());
@@ -84,8 +85,7 @@ TEST(InformedParams, PlacesSeenFromCountOnlyForSensorsThatLookAllRound) {
   SensorModel sensor;
   robot.sensor_models = {sensor};
   informed::InformedParams params;
-  EXPECT_DOUBLE_EQ(params.resolvedFor(robot).visited_radius_m,
-                   params.resolvedFor(robot).sample_spacing_m);
+  EXPECT_DOUBLE_EQ(params.resolvedFor(robot).visited_radius_m, 1.0);
   params.visited_radius_m = 0.7;
   EXPECT_DOUBLE_EQ(params.resolvedFor(robot).visited_radius_m, 0.7);
   params = {};

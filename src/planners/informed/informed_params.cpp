@@ -3,6 +3,12 @@
 #include <algorithm>
 
 namespace spelunk::planners::informed {
+namespace {
+
+/// Half the width of a drift; from the middle of a small room the rest of it is not visited yet.
+constexpr double kVisitedRadius_m = 1.0;
+
+}  // namespace
 
 InformedParams InformedParams::resolvedFor(const RobotModel& robot) const {
   if (range_m > 0.0) return *this;
@@ -15,7 +21,7 @@ InformedParams InformedParams::resolvedFor(const RobotModel& robot) const {
   resolved.length_decay /= scale;
   resolved.gain_min_m3 *= scale;
   if (resolved.visited_radius_m <= 0.0 && seesAllAround(robot))
-    resolved.visited_radius_m = resolved.sample_spacing_m;
+    resolved.visited_radius_m = kVisitedRadius_m;
   return resolved;
 }
 

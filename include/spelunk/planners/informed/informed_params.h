@@ -84,8 +84,8 @@ struct InformedParams {
     field("tried_radius_m", tried_radius_m, Bounds{0.1, 50.0},
           "targets this near to a failed one are the same");
     field("visited_radius_m", visited_radius_m, Bounds{0.0, 10.0},
-          "places this near to the trail have shown what they can; 0: with range_m 0 and a sensor "
-          "that looks all round sample_spacing_m, else any may show more");
+          "places this near to the trail have shown what they can; 0: 1 m with range_m 0 and a "
+          "sensor that looks all round, else any may show more");
     field("shortcut_length_max_m", shortcut_length_max_m, Bounds{0.5, 200.0},
           "longest straight shortcut of a way along the graph");
   }
