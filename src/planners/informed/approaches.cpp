@@ -59,7 +59,7 @@ graph::Polyline pieceOf(const graph::Polyline& way, const map::PresumedWays& way
 
 std::optional<Approaches::Target> Approaches::bestOf(const std::vector<Eigen::Vector3d>& frontier,
                                                      const map::PresumedWays& ways,
-                                                     const CandidateJudge& judge) const {
+                                                     const CandidateJudge& judge) {
   std::vector<Target> targets;
   for (const Eigen::Vector3d& place : frontier) {
     const double way_m = ways.distanceTo(place);
@@ -81,9 +81,9 @@ std::optional<Approaches::Target> Approaches::bestOf(const std::vector<Eigen::Ve
   }
   std::optional<Target> best;
   for (const Target& target : counted)
-    if (target.gain_m3 >= params_.gain_min_m3 &&
-        (!best || worthOf(target.gain_m3, target.way_m, params_) >
-                      worthOf(best->gain_m3, best->way_m, params_)))
+    if (target.gain_m3 >= judge.params.gain_min_m3 &&
+        (!best || worthOf(target.gain_m3, target.way_m, judge.params) >
+                      worthOf(best->gain_m3, best->way_m, judge.params)))
       best = target;
   return best;
 }

@@ -339,7 +339,6 @@ InformedPlanner::InformedPlanner(const InformedParams& params, const RobotModel&
       boxes_(robot.box_m),
       growth_(params_),
       scouting_(params_),
-      approaches_(params_),
       tried_(params_.tried_radius_m) {
   require(kindOf(robot) == RobotKind::kAerial, "InformedPlanner: for robots that fly");
 }
@@ -381,7 +380,7 @@ void InformedPlanner::reset() {
   view_.forget();
   growth_ = GraphGrowth(params_);
   scouting_ = Scouting(params_);
-  approaches_.forget();
+  approaches_ = {};
   tried_ = TriedTargets(params_.tried_radius_m);
   visits_ = {};
   proposal_.reset();

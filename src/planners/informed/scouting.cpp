@@ -14,6 +14,17 @@ constexpr double kPlaceReach_m = 2.0;
 constexpr double kPlaceStep_m = 0.4;
 constexpr int kFailuresMax = 20;  // of the motion planner, in one call
 
+std::vector<AxisAlignedBox> boxesOf(const ReachabilityGraph& graph) {
+  std::vector<AxisAlignedBox> boxes;
+  for (const graph::VertexId vertex : graph.vertices()) boxes.push_back(graph.boxOf(vertex));
+  return boxes;
+}
+
+bool isCovered(const Eigen::Vector3d& place, const std::vector<AxisAlignedBox>& boxes) {
+  return std::any_of(boxes.begin(), boxes.end(),
+                     [&](const AxisAlignedBox& box) { return box.contains(place); });
+}
+
 }  // namespace
 
 bool Scouting::isBarren(const Eigen::Vector3d& place) const {
@@ -32,15 +43,10 @@ bool Scouting::isCluster(const Eigen::Vector3d& voxel, const FrontierView& view)
 std::vector<Eigen::Vector3d> Scouting::seenFromAfar(const ReachabilityGraph& graph,
                                                     const FrontierView& view) const {
   std::vector<Eigen::Vector3d> places;
-  for (const Spot& spot : barren_) {
-    if (spot.has_place || !isCluster(spot.place, view)) continue;
-    const auto vertices = graph.vertices();
-    const bool is_covered =
-        std::any_of(vertices.begin(), vertices.end(), [&](const graph::VertexId vertex) {
-          return graph.boxOf(vertex).contains(spot.place);
-        });
-    if (!is_covered) places.push_back(spot.place);
-  }
+  const std::vector<AxisAlignedBox> boxes = boxesOf(graph);
+  for (const Spot& spot : barren_)
+    if (!spot.has_place && isCluster(spot.place, view) && !isCovered(spot.place, boxes))
+      places.push_back(spot.place);
   return places;
 }
 
@@ -49,15 +55,11 @@ std::vector<Eigen::Vector3d> Scouting::uncovered(const Eigen::Vector3d& from,
                                                  const ReachabilityGraph& graph,
                                                  const FrontierView& view,
                                                  const AxisAlignedBox& bounds) const {
-  std::vector<AxisAlignedBox> boxes;
-  for (const graph::VertexId vertex : graph.vertices()) boxes.push_back(graph.boxOf(vertex));
+  const std::vector<AxisAlignedBox> boxes = boxesOf(graph);
   std::vector<std::pair<double, Eigen::Vector3d>> found;
   for (const map::VoxelIndex& voxel : view.frontier().within(bounds)) {
     const Eigen::Vector3d centre = view.credible().centreOf(voxel);
-    const bool is_covered = std::any_of(boxes.begin(), boxes.end(), [&](const AxisAlignedBox& box) {
-      return box.contains(centre);
-    });
-    if (!is_covered) found.emplace_back((centre - from).norm(), centre);
+    if (!isCovered(centre, boxes)) found.emplace_back((centre - from).norm(), centre);
   }
   std::stable_sort(found.begin(), found.end(),
                    [](const auto& a, const auto& b) { return a.first < b.first; });
@@ -74,9 +76,7 @@ int Scouting::scout(graph::VertexId from, int count, GraphGrowth& growth, const 
   int failures = 0;
   for (const Eigen::Vector3d& voxel : uncovered(here, growth.graph(), view, request.bounds)) {
     if (static_cast<int>(added.size()) >= count || failures >= kFailuresMax) break;
-    const bool is_covered = std::any_of(
-        added.begin(), added.end(), [&](const AxisAlignedBox& box) { return box.contains(voxel); });
-    if (is_covered || isBarren(voxel)) continue;
+    if (isCovered(voxel, added) || isBarren(voxel)) continue;
     if (!isCluster(voxel, view)) continue;
     const auto place = places.findRoomy(voxel, space);
     if (!place) {

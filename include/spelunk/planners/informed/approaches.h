@@ -1,6 +1,5 @@
 #pragma once
 
-#include <functional>
 #include <optional>
 #include <vector>
 
@@ -16,15 +15,11 @@ namespace spelunk::planners::informed {
 /// Differs from paper: there the sensor reaches no farther than samples are drawn.
 class Approaches {
  public:
-  explicit Approaches(const InformedParams& params) : params_(params) {}
-
   /// The piece that can be flown of the way to what promises most for the length of its way; none
-  /// if nothing does or no piece of it is 3 m long. `frontier`: places of frontier that was seen from
-  /// afar. Where a way turns out closed, none leads again.
+  /// if nothing does or no piece of it is 3 m long. `frontier`: places of frontier that was seen
+  /// from afar. Where a way turns out closed, none leads again.
   [[nodiscard]] std::optional<Candidate> find(const std::vector<Eigen::Vector3d>& frontier,
                                               const CandidateJudge& judge);
-
-  void forget() { closed_.clear(); }
 
  private:
   struct Target {
@@ -32,11 +27,10 @@ class Approaches {
     double gain_m3;
     double way_m;
   };
-  [[nodiscard]] std::optional<Target> bestOf(const std::vector<Eigen::Vector3d>& frontier,
-                                             const map::PresumedWays& ways,
-                                             const CandidateJudge& judge) const;
+  [[nodiscard]] static std::optional<Target> bestOf(const std::vector<Eigen::Vector3d>& frontier,
+                                                    const map::PresumedWays& ways,
+                                                    const CandidateJudge& judge);
 
-  InformedParams params_;
   std::vector<map::ClosedPlace> closed_;
 };
 
