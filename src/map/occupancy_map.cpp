@@ -15,21 +15,12 @@ namespace {
 
 constexpr double kFaceTolerance = 1e-4;  // a box does not touch what it overlaps by less, metres
 
-/// Whether OctoMap has keys for the point and a block around it: rounding may lead a ray one voxel
-/// too far.
-bool isKeyable(const Eigen::Vector3d& point, double resolution_m) {
-  const double limit = (kKeyOffset - kBlockSide) * resolution_m;
-  return std::fabs(point.x()) < limit && std::fabs(point.y()) < limit &&
-         std::fabs(point.z()) < limit;
-}
-
 }  // namespace
 
 struct OccupancyMap::Impl {
-  explicit Impl(const MapParams& map_params) : params(map_params), blocks(LogOdds(map_params)) {}
+  explicit Impl(const MapParams& map_params)
+      : params(map_params), blocks(LogOdds(map_params)), points(map_params), tracer(map_params) {}
 
-  void takeUsablePoints(const Scan& scan, const AxisAlignedBox& robot_body, MapUpdate& update);
-  void markScan(const Eigen::Vector3f& origin);
   void forget() {
     blocks = BlockMap(LogOdds(params));
     frozen = nullptr;
@@ -38,50 +29,15 @@ struct OccupancyMap::Impl {
 
   MapParams params;
   BlockMap blocks;
-  ScanMarks marks;
-  ScanMarks ends;
+  ScanPoints points;
+  ScanTracer tracer;
   RayMarker marker;
-  std::vector<Eigen::Vector3f> usable;  ///< Of the scan; kept, so that no scan allocates.
-  std::vector<RayWalk> walks;
+  ScanMarks marks;  ///< These three are of the scan at hand; kept, so that no scan allocates.
+  ScanEnds ends;
+  RayWalks walks;
   std::shared_ptr<const FrozenMap> frozen;
   std::unique_ptr<OcTreeMirror> tree;
 };
-
-void OccupancyMap::Impl::takeUsablePoints(const Scan& scan, const AxisAlignedBox& robot_body,
-                                          MapUpdate& update) {
-  const Eigen::Matrix3d R_world_sensor = scan.T_world_sensor.linear();
-  const Eigen::Vector3d origin = scan.T_world_sensor.translation();
-  const double near_squared = params.range_min_m * params.range_min_m;
-  usable.clear();
-  for (const Eigen::Vector3f& point : scan.points) {
-    const Eigen::Vector3d in_sensor = point.cast<double>();
-    const double squared = in_sensor.squaredNorm();  // of floats: cannot overflow
-    const Eigen::Vector3d in_world = R_world_sensor * in_sensor + origin;
-    if (!std::isfinite(squared))
-      ++update.dropped_not_finite;
-    else if (squared < near_squared || squared == 0.0)
-      ++update.dropped_near;
-    else if (robot_body.contains(in_world))
-      ++update.dropped_self;
-    else if (!isKeyable(in_world, params.resolution_m))
-      ++update.dropped_far;
-    else
-      usable.push_back(in_world.cast<float>());
-  }
-}
-
-void OccupancyMap::Impl::markScan(const Eigen::Vector3f& origin) {
-  ScanTracer tracer(origin, params.resolution_m, params.range_max_m, walks);
-  marks.clear();
-  ends.clear();
-  for (const Eigen::Vector3f& point : usable) {
-    if (params.discretize)
-      tracer.addOnce(point, ends, marks);
-    else
-      tracer.add(point, marks);
-  }
-  marker.markFree(walks, marks);
-}
 
 OccupancyMap::OccupancyMap(const MapParams& params) {
   require(std::isfinite(params.resolution_m) && params.resolution_m > 0.0,
@@ -96,16 +52,13 @@ MapUpdate OccupancyMap::insert(const Scan& scan, const AxisAlignedBox& robot_bod
   require(scan.T_world_sensor.matrix().allFinite(), "OccupancyMap: sensor pose is not finite");
   MapUpdate update;
   update.points = static_cast<int>(scan.points.size());
-  impl_->takeUsablePoints(scan, robot_body, update);
-  const Eigen::Vector3f origin = scan.T_world_sensor.translation().cast<float>();
-  if (!isKeyable(scan.T_world_sensor.translation(), impl_->params.resolution_m)) {
-    update.dropped_far += static_cast<int>(impl_->usable.size());
-    impl_->usable.clear();
+  impl_->marks.clear();
+  impl_->points.findEnds(scan, robot_body, impl_->marks, impl_->ends, update);
+  if (impl_->ends.count > 0) {
+    const Eigen::Vector3f origin = scan.T_world_sensor.translation().cast<float>();
+    impl_->tracer.layOut(origin, impl_->ends, impl_->marks, impl_->walks);
+    impl_->marker.markFree(impl_->walks, impl_->marks);
   }
-  if (impl_->usable.empty())
-    impl_->marks.clear();
-  else
-    impl_->markScan(origin);
   impl_->blocks.apply(impl_->marks, impl_->params.resolution_m, update);
   return update;
 }

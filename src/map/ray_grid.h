@@ -1,5 +1,7 @@
 #pragma once
 
+#include <algorithm>
+
 #include "ray_walks.h"
 
 namespace spelunk::map {
@@ -11,13 +13,14 @@ struct RayGrid {
   std::size_t row_words;
   std::size_t layer_words;
 
-  explicit RayGrid(const std::vector<RayWalk>& walks) {
-    VoxelIndex low = walks.front().start;
+  explicit RayGrid(const RayWalks& walks) {
+    VoxelIndex low = walks.start;
     VoxelIndex high = low;
-    for (const RayWalk& walk : walks) {
-      low = low.cwiseMin(walk.end);
-      high = high.cwiseMax(walk.end);
-    }
+    for (int axis = 0; axis < 3; ++axis)
+      for (std::size_t i = 0; i < walks.count; ++i) {
+        low(axis) = std::min(low(axis), walks.end[axis][i]);
+        high(axis) = std::max(high(axis), walks.end[axis][i]);
+      }
     constexpr int kMargin = 2;  // voxels that rounding may lead a ray beyond its ends
     low.array() -= kMargin;
     high.array() += kMargin;

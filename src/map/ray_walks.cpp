@@ -12,7 +12,8 @@ namespace {
 constexpr std::size_t kWordsMax = std::size_t{1} << 23;  // 64 MB of bits
 
 /// All state of the loop is local: what the marks are written to might else be part of it.
-void walkThrough(const RayWalk& walk, const RayGrid& grid, std::uint64_t* words) {
+void walkThrough(const RayWalk& walk, const VoxelIndex& start, const RayGrid& grid,
+                 std::uint64_t* words) {
   double next_x = walk.next[0];
   double next_y = walk.next[1];
   double next_z = walk.next[2];
@@ -20,7 +21,7 @@ void walkThrough(const RayWalk& walk, const RayGrid& grid, std::uint64_t* words)
   const std::int64_t step[3] = {walk.step[0] * grid.stride(0), walk.step[1] * grid.stride(1),
                                 walk.step[2] * grid.stride(2)};
   const double length = walk.length;
-  std::int64_t at = grid.offsetOf(walk.start);
+  std::int64_t at = grid.offsetOf(start);
   const std::int64_t end = grid.offsetOf(walk.end);
   double limit = std::numeric_limits<double>::infinity();  // the first voxel always counts
   // Marks the voxel and leaves it by its nearest border; false if that lies beyond the ray's end.
@@ -40,10 +41,11 @@ void walkThrough(const RayWalk& walk, const RayGrid& grid, std::uint64_t* words)
   }
 }
 
-void walkThroughAll(const std::vector<RayWalk>& walks, const RayGrid& grid, WalkLanes lanes,
+void walkThroughAll(const RayWalks& walks, const RayGrid& grid, WalkLanes lanes,
                     std::uint64_t* words) {
   if (lanes == WalkLanes::kEight) return walkThroughByEights(walks, grid, words);
-  for (const RayWalk& walk : walks) walkThrough(walk, grid, words);
+  for (std::size_t i = 0; i < walks.count; ++i)
+    walkThrough(walks.at(i), walks.start, grid, words);
 }
 
 /// The blocks of eight by eight rows, at a word of x each.
@@ -68,9 +70,9 @@ void collectBlocks(const RayGrid& grid, const std::uint64_t* words, const VoxelI
   }
 }
 
-void walkOne(const RayWalk& walk, ScanMarks& marks) {
+void walkOne(const RayWalk& walk, const VoxelIndex& start, ScanMarks& marks) {
   double next[3] = {walk.next[0], walk.next[1], walk.next[2]};
-  VoxelIndex at = walk.start;
+  VoxelIndex at = start;
   double limit = std::numeric_limits<double>::infinity();
   do {
     const int axis = next[0] < next[1] ? (next[0] < next[2] ? 0 : 2) : (next[1] < next[2] ? 1 : 2);
@@ -86,6 +88,41 @@ void walkOne(const RayWalk& walk, ScanMarks& marks) {
 
 }  // namespace
 
+void RayWalks::resize(std::size_t rays) {
+  count = rays;
+  const std::size_t room = (rays + 7) / 8 * 8;
+  if (length.size() >= room) return;
+  for (int axis = 0; axis < 3; ++axis) {
+    next[axis].resize(room);
+    spacing[axis].resize(room);
+    step[axis].resize(room);
+    end[axis].resize(room);
+  }
+  length.resize(room);
+}
+
+void RayWalks::set(std::size_t i, const RayWalk& walk) {
+  for (int axis = 0; axis < 3; ++axis) {
+    next[axis][i] = walk.next[axis];
+    spacing[axis][i] = walk.spacing[axis];
+    step[axis][i] = walk.step[axis];
+    end[axis][i] = walk.end(axis);
+  }
+  length[i] = walk.length;
+}
+
+RayWalk RayWalks::at(std::size_t i) const {
+  RayWalk walk;
+  for (int axis = 0; axis < 3; ++axis) {
+    walk.next[axis] = next[axis][i];
+    walk.spacing[axis] = spacing[axis][i];
+    walk.step[axis] = step[axis][i];
+    walk.end(axis) = end[axis][i];
+  }
+  walk.length = length[i];
+  return walk;
+}
+
 RayMarker::RayMarker(WalkLanes lanes) : lanes_(lanes) {
   require(lanes == WalkLanes::kOne || hasEightLanes(),
           "RayMarker: this processor has no registers of eight lanes");
@@ -93,12 +130,12 @@ RayMarker::RayMarker(WalkLanes lanes) : lanes_(lanes) {
 
 WalkLanes RayMarker::most() { return hasEightLanes() ? WalkLanes::kEight : WalkLanes::kOne; }
 
-void RayMarker::markFreeOneByOne(const std::vector<RayWalk>& walks, ScanMarks& marks) {
-  for (const RayWalk& walk : walks) walkOne(walk, marks);
+void RayMarker::markFreeOneByOne(const RayWalks& walks, ScanMarks& marks) {
+  for (std::size_t i = 0; i < walks.count; ++i) walkOne(walks.at(i), walks.start, marks);
 }
 
-void RayMarker::markFree(const std::vector<RayWalk>& walks, ScanMarks& marks) {
-  if (walks.empty()) return;
+void RayMarker::markFree(const RayWalks& walks, ScanMarks& marks) {
+  if (walks.count == 0) return;
   const RayGrid grid(walks);
   if (grid.words() > kWordsMax) return markFreeOneByOne(walks, marks);
   words_.assign(grid.words(), 0);

@@ -12,10 +12,25 @@ namespace spelunk::map {
 struct RayWalk {
   double next[3];
   double spacing[3];
-  int step[3];       ///< -1, 0 or 1
-  VoxelIndex start;  ///< Always marked.
-  VoxelIndex end;    ///< Not marked.
-  double length;     ///< A border beyond it is not crossed: rounding can lead past the end's voxel.
+  int step[3];     ///< -1, 0 or 1
+  VoxelIndex end;  ///< Not marked.
+  double length;   ///< A border beyond it is not crossed: rounding can lead past the end's voxel.
+};
+
+/// The rays of one scan, number by number beside each other so that several are walked at once.
+struct RayWalks {
+  VoxelIndex start;  ///< Of all rays; always marked.
+  std::vector<double> next[3];
+  std::vector<double> spacing[3];
+  std::vector<std::int32_t> step[3];
+  std::vector<std::int32_t> end[3];
+  std::vector<double> length;
+  std::size_t count = 0;  ///< Of rays; the vectors are longer.
+
+  /// Sets `count` and makes room for whole groups of eight rays.
+  void resize(std::size_t rays);
+  void set(std::size_t i, const RayWalk& walk);
+  [[nodiscard]] RayWalk at(std::size_t i) const;
 };
 
 /// How many rays are walked at once.
@@ -31,11 +46,11 @@ class RayMarker {
   /// What this processor does fastest.
   [[nodiscard]] static WalkLanes most();
 
-  void markFree(const std::vector<RayWalk>& walks, ScanMarks& marks);
+  void markFree(const RayWalks& walks, ScanMarks& marks);
 
   /// The same, one ray and one voxel after the other, straight into the blocks: for rays that reach
   /// too far for a dense grid.
-  static void markFreeOneByOne(const std::vector<RayWalk>& walks, ScanMarks& marks);
+  static void markFreeOneByOne(const RayWalks& walks, ScanMarks& marks);
 
  private:
   WalkLanes lanes_;

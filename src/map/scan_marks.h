@@ -41,6 +41,11 @@ class ScanMarks {
     return is_new;
   }
 
+  void unmarkHit(PackedKey voxel) {
+    blocks_[touch(voxel)].hit[static_cast<std::size_t>(wordOf(voxel))] &=
+        ~(std::uint64_t{1} << bitOf(voxel));
+  }
+
   [[nodiscard]] Block& block(std::size_t i) { return blocks_[i]; }
   [[nodiscard]] const std::vector<Block>& blocks() const { return blocks_; }
 

@@ -2,89 +2,124 @@
 
 #include <octomap/octomap_types.h>
 
+#include <cmath>
 #include <limits>
+
+#include "spelunk/common/wide_loops.h"
 
 namespace spelunk::map {
 namespace {
 
 octomap::point3d toOctomap(const Eigen::Vector3f& v) { return {v.x(), v.y(), v.z()}; }
 
-/// Sets one axis of a walk, lengths in metres. The arithmetic (float directions, double sums, voxel
-/// border rounded through float) is that of OcTree::computeRayKeys.
-void setAxis(int axis, float direction, float origin, double resolution, int key, RayWalk& walk) {
-  if (direction == 0.0F) {
-    walk.next[axis] = walk.spacing[axis] = std::numeric_limits<double>::max();
-    walk.step[axis] = 0;
-    return;
+/// Lengths of the rays to `ends`, rounded as octomath rounds them.
+SPELUNK_WIDE_IF_POSSIBLE void findNorms(const float* x, const float* y, const float* z,
+                                        std::size_t count, const Eigen::Vector3f& origin,
+                                        double* __restrict norms) {
+  const float origin_x = origin.x(), origin_y = origin.y(), origin_z = origin.z();
+  for (std::size_t i = 0; i < count; ++i) {
+    const float dx = x[i] - origin_x, dy = y[i] - origin_y, dz = z[i] - origin_z;
+    norms[i] = std::sqrt(static_cast<double>(dx * dx + dy * dy + dz * dz));
   }
-  const int sign = direction > 0.0F ? 1 : -1;
-  double border = (static_cast<double>(key - kKeyOffset) + 0.5) * resolution;
-  border += static_cast<float>(sign * resolution * 0.5);
-  walk.next[axis] = (border - origin) / direction;
-  walk.spacing[axis] = resolution / std::fabs(static_cast<double>(direction));
-  walk.step[axis] = sign;
+}
+
+void findNorms(const ScanEnds& ends, const Eigen::Vector3f& origin, std::vector<double>& norms) {
+  if (norms.size() < ends.count) norms.resize(ends.count);
+  findNorms(ends.point[0].data(), ends.point[1].data(), ends.point[2].data(), ends.count, origin,
+            norms.data());
+}
+
+/// One axis of all walks. The arithmetic (float directions, double sums, voxel border rounded
+/// through float) is that of OcTree::computeRayKeys.
+struct AxisOfWalks {
+  double origin;
+  double border_above;  ///< Of the origin's voxel.
+  double border_below;
+  double resolution;
+
+  AxisOfWalks(float from, int voxel, double resolution_m) : origin(from), resolution(resolution_m) {
+    const double centre = (voxel + 0.5) * resolution_m;
+    border_above = centre + static_cast<float>(resolution_m * 0.5);
+    border_below = centre + static_cast<float>(-resolution_m * 0.5);
+  }
+};
+
+SPELUNK_WIDE_IF_POSSIBLE void setAxis(const AxisOfWalks& axis, const float* ends,
+                                      const double* norms, std::size_t count,
+                                      double* __restrict next, double* __restrict spacing,
+                                      std::int32_t* __restrict step) {
+  constexpr double kNever = std::numeric_limits<double>::max();
+  const auto from = static_cast<float>(axis.origin);
+  const double above = axis.border_above - axis.origin;
+  const double below = axis.border_below - axis.origin;
+  const double resolution = axis.resolution;
+  for (std::size_t i = 0; i < count; ++i) {
+    const float direction = (ends[i] - from) / static_cast<float>(norms[i]);
+    const auto wide = static_cast<double>(direction);
+    const double first = (direction > 0.0F ? above : below) / wide;
+    const double between = resolution / std::fabs(wide);
+    next[i] = direction == 0.0F ? kNever : first;
+    spacing[i] = direction == 0.0F ? kNever : between;
+    step[i] = static_cast<std::int32_t>(direction > 0.0F) -
+              static_cast<std::int32_t>(direction < 0.0F);
+  }
+}
+
+/// As octomath rounds them once more when a ray is normalized.
+SPELUNK_WIDE_IF_POSSIBLE void roundLengths(const double* norms, std::size_t count,
+                                           double* __restrict lengths) {
+  for (std::size_t i = 0; i < count; ++i) lengths[i] = static_cast<float>(norms[i]);
+}
+
+/// Rays that end in the voxel they start from walk nowhere.
+void removeEndsIn(const VoxelIndex& voxel, ScanEnds& ends) {
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < ends.count; ++i)
+    if (ends.voxelAt(i) != voxel) ends.set(kept++, ends.pointAt(i), ends.voxelAt(i));
+  ends.count = kept;
 }
 
 }  // namespace
 
-ScanTracer::ScanTracer(const Eigen::Vector3f& origin, double resolution_m, double range_max_m,
-                       std::vector<RayWalk>& walks)
-    : origin_(origin),
-      resolution_m_(resolution_m),
-      inverse_resolution_(1.0 / resolution_m),
-      range_max_m_(range_max_m),
-      origin_index_(indexOf(origin)),
-      walks_(walks) {
-  walks_.clear();
-}
+ScanTracer::ScanTracer(const MapParams& params)
+    : resolution_m_(params.resolution_m), range_max_m_(params.range_max_m) {}
 
-VoxelIndex ScanTracer::indexOf(const Eigen::Vector3f& point) const {
-  return voxelOf(point.cast<double>(), inverse_resolution_);
-}
-
-Eigen::Vector3f ScanTracer::centreOf(const VoxelIndex& index) const {
-  return ((index.cast<double>().array() + 0.5) * resolution_m_).cast<float>();
-}
-
-Eigen::Vector3f ScanTracer::centreAround(const Eigen::Vector3f& point) const {
-  return centreOf(indexOf(point));
-}
-
-void ScanTracer::add(const Eigen::Vector3f& end, ScanMarks& marks) {
-  addWithin(end, indexOf(end), marks);
-}
-
-void ScanTracer::addOnce(const Eigen::Vector3f& end, ScanMarks& ends, ScanMarks& marks) {
-  const VoxelIndex voxel = indexOf(end);
-  if (ends.markHit(packIndex(voxel))) addWithin(centreOf(voxel), voxel, marks);
-}
-
-void ScanTracer::addWithin(const Eigen::Vector3f& end, const VoxelIndex& voxel, ScanMarks& marks) {
-  const octomap::point3d from = toOctomap(origin_);
-  const octomap::point3d difference = toOctomap(end) - from;
-  if (difference.norm() <= range_max_m_) {
-    addWalk(end, voxel);
-    marks.markHit(packIndex(voxel));
-    return;
+void ScanTracer::cutAtRange(const Eigen::Vector3f& origin, ScanEnds& ends, ScanMarks& marks) {
+  findNorms(ends, origin, norms_);
+  bool is_any_cut = false;
+  for (std::size_t i = 0; i < ends.count; ++i)
+    if (isTooFar(i)) {
+      is_any_cut = true;
+      marks.unmarkHit(packIndex(ends.voxelAt(i)));
+    }
+  if (!is_any_cut) return;
+  for (std::size_t i = 0; i < ends.count; ++i) {
+    if (!isTooFar(i)) {
+      marks.markHit(packIndex(ends.voxelAt(i)));  // it may share the voxel of one that is
+      continue;
+    }
+    const octomap::point3d from = toOctomap(origin);
+    const octomap::point3d ray = toOctomap(ends.pointAt(i)) - from;
+    const octomap::point3d cut = from + ray.normalized() * static_cast<float>(range_max_m_);
+    const Eigen::Vector3f end(cut.x(), cut.y(), cut.z());
+    ends.set(i, end, voxelOf(end.cast<double>(), 1.0 / resolution_m_));
   }
-  const octomap::point3d cut = from + difference.normalized() * static_cast<float>(range_max_m_);
-  const Eigen::Vector3f cut_end(cut.x(), cut.y(), cut.z());
-  addWalk(cut_end, indexOf(cut_end));
 }
 
-void ScanTracer::addWalk(const Eigen::Vector3f& end, const VoxelIndex& voxel) {
-  RayWalk walk;
-  walk.end = voxel;
-  if (walk.end == origin_index_) return;
-  octomap::point3d direction = toOctomap(end) - toOctomap(origin_);
-  const auto length = static_cast<float>(direction.norm());
-  direction /= length;
-  walk.length = length;
-  walk.start = origin_index_;
-  for (int axis = 0; axis < 3; ++axis)
-    setAxis(axis, direction(static_cast<unsigned>(axis)), origin_(axis), resolution_m_,
-            origin_index_(axis) + kKeyOffset, walk);
-  walks_.push_back(walk);
+void ScanTracer::layOut(const Eigen::Vector3f& origin, ScanEnds& ends, ScanMarks& marks,
+                        RayWalks& walks) {
+  cutAtRange(origin, ends, marks);
+  walks.start = voxelOf(origin.cast<double>(), 1.0 / resolution_m_);
+  removeEndsIn(walks.start, ends);
+  findNorms(ends, origin, norms_);
+  walks.resize(ends.count);
+  for (int i = 0; i < 3; ++i) {
+    const AxisOfWalks axis(origin(i), walks.start(i), resolution_m_);
+    setAxis(axis, ends.point[i].data(), norms_.data(), ends.count, walks.next[i].data(),
+            walks.spacing[i].data(), walks.step[i].data());
+    std::copy_n(ends.voxel[i].data(), ends.count, walks.end[i].data());
+  }
+  roundLengths(norms_.data(), ends.count, walks.length.data());
 }
 
 }  // namespace spelunk::map

@@ -1,44 +1,27 @@
 #pragma once
 
-#include <vector>
-
 #include "ray_walks.h"
-#include "scan_marks.h"
+#include "scan_ends.h"
 
 namespace spelunk::map {
 
-/// The voxels OctoMap would update for one scan (Hornung et al., OctoMap, Autonomous Robots 2013,
-/// section 5): same arithmetic, so the same voxels bit for bit.
+/// Lays out the walks of a scan's rays through the voxels OctoMap would update (Hornung et al.,
+/// OctoMap, Autonomous Robots 2013, section 5): same arithmetic, so the same voxels bit for bit.
 class ScanTracer {
  public:
-  /// The origin's key must be in range with a margin of one block. The rays taken are written to
-  /// `walks`, which is emptied first.
-  ScanTracer(const Eigen::Vector3f& origin, double resolution_m, double range_max_m,
-             std::vector<RayWalk>& walks);
+  explicit ScanTracer(const MapParams& params);
 
-  /// Takes the ray to `end`: free up to it and hit at it, or free up to the range if it is longer.
-  /// Marks the hit at once. `end` must be in key range with a margin of one block.
-  void add(const Eigen::Vector3f& end, ScanMarks& marks);
-
-  /// Takes the ray to the centre of the voxel around `end` instead, unless `ends` says that one to
-  /// this voxel was taken: OctoMap's discretization.
-  void addOnce(const Eigen::Vector3f& end, ScanMarks& ends, ScanMarks& marks);
-
-  /// The centre of the voxel around `point`, as OctoMap rounds it.
-  [[nodiscard]] Eigen::Vector3f centreAround(const Eigen::Vector3f& point) const;
+  /// Replaces `walks` by those from `origin` to `ends`. Ends farther off than the map's range are
+  /// moved to it and are no hits: that is mended in `marks`. The origin must be within keyLimit.
+  void layOut(const Eigen::Vector3f& origin, ScanEnds& ends, ScanMarks& marks, RayWalks& walks);
 
  private:
-  [[nodiscard]] VoxelIndex indexOf(const Eigen::Vector3f& point) const;
-  [[nodiscard]] Eigen::Vector3f centreOf(const VoxelIndex& index) const;
-  void addWithin(const Eigen::Vector3f& end, const VoxelIndex& voxel, ScanMarks& marks);
-  void addWalk(const Eigen::Vector3f& end, const VoxelIndex& voxel);
+  void cutAtRange(const Eigen::Vector3f& origin, ScanEnds& ends, ScanMarks& marks);
+  [[nodiscard]] bool isTooFar(std::size_t i) const { return !(norms_[i] <= range_max_m_); }
 
-  Eigen::Vector3f origin_;
   double resolution_m_;
-  double inverse_resolution_;
   double range_max_m_;
-  VoxelIndex origin_index_;
-  std::vector<RayWalk>& walks_;
+  std::vector<double> norms_;  ///< Lengths of rays; kept, so that no scan allocates.
 };
 
 }  // namespace spelunk::map

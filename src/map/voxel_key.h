@@ -25,8 +25,12 @@ inline PackedKey packKey(int x, int y, int z) {
          static_cast<PackedKey>(z) << (2 * kKeyFieldBits);
 }
 
+inline PackedKey packIndex(int x, int y, int z) {
+  return packKey(x + kKeyOffset, y + kKeyOffset, z + kKeyOffset);
+}
+
 inline PackedKey packIndex(const VoxelIndex& index) {
-  return packKey(index.x() + kKeyOffset, index.y() + kKeyOffset, index.z() + kKeyOffset);
+  return packIndex(index.x(), index.y(), index.z());
 }
 
 inline VoxelIndex unpackIndex(PackedKey key) {
@@ -35,6 +39,10 @@ inline VoxelIndex unpackIndex(PackedKey key) {
   };
   return {field(0), field(1), field(2)};
 }
+
+/// Coordinates below it in amount have a key, and so has a block around them: rounding may lead a
+/// ray one voxel too far.
+inline double keyLimit(double resolution) { return (kKeyOffset - kBlockSide) * resolution; }
 
 /// Whether OctoMap has a key for the index.
 inline bool isInKeyRange(const VoxelIndex& index) {

@@ -10,6 +10,7 @@
 
 // GCC 12 takes the deliberately undefined operands inside its own intrinsics for mistakes.
 #pragma GCC diagnostic ignored "-Wmaybe-uninitialized"
+#pragma GCC diagnostic ignored "-Wuninitialized"
 #define SPELUNK_WIDE __attribute__((target("avx512f"), always_inline)) inline
 #endif
 
@@ -20,35 +21,8 @@ namespace {
 
 constexpr std::size_t kLanes = 8;
 
-struct alignas(64) Doubles {
-  double of[kLanes];
-};
 struct alignas(64) Integers {
   std::int64_t of[kLanes];
-};
-
-/// Eight walks as numbers beside each other; behind the last one its copies.
-struct EightWalks {
-  Doubles next[3];
-  Doubles spacing[3];
-  Doubles length;
-  Integers step[3];
-  Integers start;
-  Integers end;
-
-  EightWalks(const RayWalk* walks, std::size_t count, const RayGrid& grid) {
-    for (std::size_t k = 0; k < kLanes; ++k) {
-      const RayWalk& walk = walks[std::min(k, count - 1)];
-      for (int axis = 0; axis < 3; ++axis) {
-        next[axis].of[k] = walk.next[axis];
-        spacing[axis].of[k] = walk.spacing[axis];
-        step[axis].of[k] = walk.step[axis] * grid.stride(axis);
-      }
-      length.of[k] = walk.length;
-      start.of[k] = grid.offsetOf(walk.start);
-      end.of[k] = grid.offsetOf(walk.end);
-    }
-  }
 };
 
 /// Sets the bits at the places of those lanes that are still going.
@@ -68,19 +42,46 @@ SPELUNK_WIDE void markPlaces(__m512i at, unsigned going, std::uint64_t* words) {
     }
 }
 
-__attribute__((target("avx512f"))) void walkThroughEight(const EightWalks& walks, unsigned going,
+SPELUNK_WIDE __m512d doublesAt(const std::vector<double>& values, std::size_t first) {
+  return _mm512_loadu_pd(values.data() + first);
+}
+
+SPELUNK_WIDE __m512i integersAt(const std::vector<std::int32_t>& values, std::size_t first) {
+  return _mm512_cvtepi32_epi64(
+      _mm256_loadu_si256(reinterpret_cast<const __m256i*>(values.data() + first)));
+}
+
+/// What a number of voxels along an axis adds to an offset in the grid.
+SPELUNK_WIDE __m512i offsetsAlong(int axis, __m512i voxels, const RayGrid& grid) {
+  return _mm512_mul_epi32(voxels, _mm512_set1_epi64(grid.stride(axis)));
+}
+
+SPELUNK_WIDE __m512i endOffsetsAt(const RayWalks& walks, std::size_t first, const RayGrid& grid) {
+  __m512i offsets = _mm512_setzero_si512();
+  for (int axis = 0; axis < 3; ++axis) {
+    const __m512i in_grid =
+        _mm512_sub_epi64(integersAt(walks.end[axis], first), _mm512_set1_epi64(grid.first(axis)));
+    offsets = _mm512_add_epi64(offsets, offsetsAlong(axis, in_grid, grid));
+  }
+  return offsets;
+}
+
+/// Walks those of the eight walks from `first` on that `going` names.
+__attribute__((target("avx512f"))) void walkThroughEight(const RayWalks& walks, std::size_t first,
+                                                         unsigned going, const RayGrid& grid,
                                                          std::uint64_t* words) {
-  __m512d next_x = _mm512_load_pd(walks.next[0].of);
-  __m512d next_y = _mm512_load_pd(walks.next[1].of);
-  __m512d next_z = _mm512_load_pd(walks.next[2].of);
-  const __m512d spacing_x = _mm512_load_pd(walks.spacing[0].of);
-  const __m512d spacing_y = _mm512_load_pd(walks.spacing[1].of);
-  const __m512d spacing_z = _mm512_load_pd(walks.spacing[2].of);
-  const __m512i step_x = _mm512_load_si512(walks.step[0].of);
-  const __m512i step_y = _mm512_load_si512(walks.step[1].of);
-  const __m512i step_z = _mm512_load_si512(walks.step[2].of);
-  const __m512i end = _mm512_load_si512(walks.end.of);
-  __m512i at = _mm512_load_si512(walks.start.of);
+  __m512d next_x = doublesAt(walks.next[0], first);
+  __m512d next_y = doublesAt(walks.next[1], first);
+  __m512d next_z = doublesAt(walks.next[2], first);
+  const __m512d spacing_x = doublesAt(walks.spacing[0], first);
+  const __m512d spacing_y = doublesAt(walks.spacing[1], first);
+  const __m512d spacing_z = doublesAt(walks.spacing[2], first);
+  const __m512d length = doublesAt(walks.length, first);
+  const __m512i step_x = offsetsAlong(0, integersAt(walks.step[0], first), grid);
+  const __m512i step_y = offsetsAlong(1, integersAt(walks.step[1], first), grid);
+  const __m512i step_z = offsetsAlong(2, integersAt(walks.step[2], first), grid);
+  const __m512i end = endOffsetsAt(walks, first, grid);
+  __m512i at = _mm512_set1_epi64(grid.offsetOf(walks.start));
   __m512d limit = _mm512_set1_pd(std::numeric_limits<double>::infinity());
   while (going != 0) {
     const __mmask8 x_before_y = _mm512_cmp_pd_mask(next_x, next_y, _CMP_LT_OQ);
@@ -98,7 +99,7 @@ __attribute__((target("avx512f"))) void walkThroughEight(const EightWalks& walks
     next_x = _mm512_mask_add_pd(next_x, in_x, next_x, spacing_x);
     next_y = _mm512_mask_add_pd(next_y, in_y, next_y, spacing_y);
     next_z = _mm512_mask_add_pd(next_z, in_z, next_z, spacing_z);
-    limit = _mm512_load_pd(walks.length.of);
+    limit = length;
     going &= _mm512_cmpneq_epi64_mask(at, end);
   }
 }
@@ -110,11 +111,10 @@ bool hasEightLanes() {
   return has;
 }
 
-void walkThroughByEights(const std::vector<RayWalk>& walks, const RayGrid& grid,
-                         std::uint64_t* words) {
-  for (std::size_t first = 0; first < walks.size(); first += kLanes) {
-    const std::size_t count = std::min(kLanes, walks.size() - first);
-    walkThroughEight(EightWalks(&walks[first], count, grid), (1U << count) - 1, words);
+void walkThroughByEights(const RayWalks& walks, const RayGrid& grid, std::uint64_t* words) {
+  for (std::size_t first = 0; first < walks.count; first += kLanes) {
+    const std::size_t count = std::min(kLanes, walks.count - first);
+    walkThroughEight(walks, first, (1U << count) - 1, grid, words);
   }
 }
 
@@ -122,7 +122,7 @@ void walkThroughByEights(const std::vector<RayWalk>& walks, const RayGrid& grid,
 
 bool hasEightLanes() { return false; }
 
-void walkThroughByEights(const std::vector<RayWalk>&, const RayGrid&, std::uint64_t*) {
+void walkThroughByEights(const RayWalks&, const RayGrid&, std::uint64_t*) {
   require(false, "walkThroughByEights: this processor has no registers of eight lanes");
 }
 

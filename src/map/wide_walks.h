@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstdint>
-#include <vector>
 
 #include "ray_grid.h"
 
@@ -12,7 +11,6 @@ namespace spelunk::map {
 
 /// Marks what the walks pass through, eight of them at a time. Additions and comparisons only, so
 /// the same voxels as one by one. Only where hasEightLanes().
-void walkThroughByEights(const std::vector<RayWalk>& walks, const RayGrid& grid,
-                         std::uint64_t* words);
+void walkThroughByEights(const RayWalks& walks, const RayGrid& grid, std::uint64_t* words);
 
 }  // namespace spelunk::map

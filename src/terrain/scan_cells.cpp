@@ -4,11 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__)
-#define SPELUNK_WIDE_IF_POSSIBLE __attribute__((target_clones("avx2", "default")))
-#else
-#define SPELUNK_WIDE_IF_POSSIBLE
-#endif
+#include "spelunk/common/wide_loops.h"
 
 namespace spelunk::terrain {
 namespace {

@@ -2,7 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <limits>
 #include <map>
 
@@ -20,18 +19,29 @@ std::map<PackedKey, Mask> freeOf(const ScanMarks& marks) {
   return free;
 }
 
-std::vector<RayWalk> walksFrom(const Eigen::Vector3f& origin, int rays, float reach, Rng& rng) {
-  std::vector<RayWalk> walks;
-  ScanTracer tracer(origin, 0.15, 50.0, walks);
-  ScanMarks hits;
+RayWalks walksFrom(const Eigen::Vector3f& origin, int rays, float reach, Rng& rng) {
+  MapParams params;
+  params.resolution_m = 0.15;
+  ScanEnds ends;
+  ends.makeRoomFor(static_cast<std::size_t>(rays));
   const auto draw = [&] { return reach * static_cast<float>(2.0 * rng.uniform() - 1.0); };
   for (int i = 0; i < rays; ++i) {
     Eigen::Vector3f end = origin + Eigen::Vector3f(draw(), draw(), 0.2F * draw());
     if (i % 7 == 0) end.y() = origin.y();  // along an axis plane
-    if (i % 11 == 0) end = tracer.centreAround(end);
-    tracer.add(end, hits);
+    const VoxelIndex voxel = voxelOf(end.cast<double>(), 1.0 / params.resolution_m);
+    if (i % 11 == 0) end = ((voxel.cast<double>().array() + 0.5) * params.resolution_m).cast<float>();
+    ends.set(ends.count++, end, voxel);
   }
+  RayWalks walks;
+  ScanMarks hits;
+  ScanTracer(params).layOut(origin, ends, hits, walks);
   return walks;
+}
+
+RayWalks reversed(const RayWalks& walks) {
+  RayWalks reversed = walks;
+  for (std::size_t i = 0; i < walks.count; ++i) reversed.set(i, walks.at(walks.count - 1 - i));
+  return reversed;
 }
 
 TEST(RayMarker, MarksWhatWalkingOneByOneMarks) {
@@ -57,12 +67,11 @@ TEST(RayMarker, MarksWhatWalkingOneByOneMarks) {
 TEST(RayMarker, DoesNotDependOnTheOrderOfTheRays) {
   Rng rng(6);
   RayMarker marker;
-  auto walks = walksFrom({0.1F, 0.2F, 0.3F}, 200, 20.0F, rng);
+  const RayWalks walks = walksFrom({0.1F, 0.2F, 0.3F}, 200, 20.0F, rng);
   ScanMarks forwards;
   marker.markFree(walks, forwards);
-  std::reverse(walks.begin(), walks.end());
   ScanMarks backwards;
-  marker.markFree(walks, backwards);
+  marker.markFree(reversed(walks), backwards);
   ASSERT_EQ(forwards.blocks().size(), backwards.blocks().size());
   for (std::size_t i = 0; i < forwards.blocks().size(); ++i) {
     ASSERT_EQ(forwards.blocks()[i].key, backwards.blocks()[i].key);
@@ -71,32 +80,28 @@ TEST(RayMarker, DoesNotDependOnTheOrderOfTheRays) {
 }
 
 TEST(RayMarker, WalksRaysTooFarForAGridOneByOne) {
-  RayWalk walk{};
   const double never = std::numeric_limits<double>::max();
-  for (int axis = 0; axis < 3; ++axis) {
-    walk.next[axis] = walk.spacing[axis] = axis == 0 ? 1.0 : never;
-    walk.step[axis] = axis == 0 ? 1 : 0;
+  RayWalks walks;
+  walks.start = VoxelIndex::Zero();
+  walks.resize(2);
+  for (int axis = 0; axis < 2; ++axis) {  // a grid around both would be huge
+    RayWalk walk{{never, never, never}, {never, never, never}, {0, 0, 0}, VoxelIndex::Zero(), 1e6};
+    walk.next[axis] = walk.spacing[axis] = 1.0;
+    walk.step[axis] = 1;
+    walk.end(axis) = 30000;
+    walks.set(static_cast<std::size_t>(axis), walk);
   }
-  walk.start = VoxelIndex::Zero();
-  walk.end = VoxelIndex(40, 0, 0);
-  walk.length = 1e3;
-  RayWalk other = walk;
-  std::swap(other.next[0], other.next[1]);
-  std::swap(other.spacing[0], other.spacing[1]);
-  std::swap(other.step[0], other.step[1]);
-  other.start = VoxelIndex(20000, 20000, 500);  // a grid around both would be huge
-  other.end = VoxelIndex(20000, 20009, 500);
   ScanMarks marks;
-  RayMarker{}.markFree({walk, other}, marks);
+  RayMarker{}.markFree(walks, marks);
   int voxels = 0;
   for (const auto& [key, mask] : freeOf(marks))
     for (const std::uint64_t word : mask) voxels += __builtin_popcountll(word);
-  EXPECT_EQ(voxels, 40 + 9);
+  EXPECT_EQ(voxels, 30000 + 30000 - 1) << "both start in one voxel";
 }
 
 TEST(RayMarker, OfNoRaysMarksNothing) {
   ScanMarks marks;
-  RayMarker{}.markFree({}, marks);
+  RayMarker{}.markFree(RayWalks{}, marks);
   EXPECT_TRUE(marks.blocks().empty());
 }
 
