@@ -73,26 +73,24 @@ std::uint32_t BlockMap::findOrCreate(PackedKey voxel) {
   return number;
 }
 
-void BlockMap::setVoxel(VoxelBlock& block, std::size_t z, int bit, float value) {
-  const float clamped = std::min(std::max(value, log_odds_.clamp_min), log_odds_.clamp_max);
-  const std::uint64_t one = std::uint64_t{1} << bit;
-  const auto assign = [one](std::uint64_t& word, bool is_set) {
-    word = is_set ? word | one : word & ~one;
-  };
-  block.log_odds[z * 64 + static_cast<std::size_t>(bit)] = clamped;
-  assign(block.occupied[z], clamped >= log_odds_.occupied);
-  assign(block.at_min[z], clamped <= log_odds_.clamp_min);
-  assign(block.at_max[z], clamped >= log_odds_.clamp_max);
-  block.known[z] |= one;
-  block.tree_stale[z] |= one;
-}
-
-void BlockMap::enterPlane(VoxelBlock& block, std::size_t z, std::uint64_t free, std::uint64_t hit) {
-  const float* values = block.log_odds.data() + z * 64;
-  forEachBit(free & ~block.at_min[z],
-             [&](int bit) { setVoxel(block, z, bit, values[bit] + log_odds_.miss); });
-  forEachBit(hit & ~block.at_max[z],
-             [&](int bit) { setVoxel(block, z, bit, values[bit] + log_odds_.hit); });
+void BlockMap::vote(VoxelBlock& block, std::size_t z, std::uint64_t voxels, float log_odds) {
+  float* values = block.log_odds.data() + z * 64;
+  std::uint64_t occupied = 0;
+  std::uint64_t at_min = 0;
+  std::uint64_t at_max = 0;
+  forEachBit(voxels, [&](int bit) {
+    const float value =
+        std::min(std::max(values[bit] + log_odds, log_odds_.clamp_min), log_odds_.clamp_max);
+    values[bit] = value;
+    occupied |= std::uint64_t{value >= log_odds_.occupied} << bit;
+    at_min |= std::uint64_t{value <= log_odds_.clamp_min} << bit;
+    at_max |= std::uint64_t{value >= log_odds_.clamp_max} << bit;
+  });
+  block.occupied[z] = (block.occupied[z] & ~voxels) | occupied;
+  block.at_min[z] = (block.at_min[z] & ~voxels) | at_min;
+  block.at_max[z] = (block.at_max[z] & ~voxels) | at_max;
+  block.known[z] |= voxels;
+  block.tree_stale[z] |= voxels;
 }
 
 void BlockMap::apply(const ScanMarks& marks, double resolution_m, MapUpdate& update) {
@@ -100,18 +98,22 @@ void BlockMap::apply(const ScanMarks& marks, double resolution_m, MapUpdate& upd
   for (const ScanMarks::Block& marked : marks.blocks()) {
     const std::uint32_t number = findOrCreate(marked.key);
     VoxelBlock& block = *blocks_[number];
+    Mask hit;
+    Mask free;
+    std::uint64_t open = 0;  // what another vote can change
+    for (std::size_t z = 0; z < kBlockSide; ++z) {
+      update.voxels_updated += __builtin_popcountll(marked.hit[z] | marked.free[z]);
+      hit[z] = marked.hit[z] & ~block.at_max[z];
+      free[z] = marked.free[z] & ~marked.hit[z] & ~block.at_min[z];  // occupied wins within a scan
+      open |= hit[z] | free[z];
+    }
+    if (open == 0) continue;
     const Mask known_before = block.known;
     const Mask occupied_before = block.occupied;
-    std::uint64_t worked = 0;
     for (std::size_t z = 0; z < kBlockSide; ++z) {
-      const std::uint64_t hit = marked.hit[z];
-      const std::uint64_t free = marked.free[z] & ~hit;  // occupied wins within a scan
-      update.voxels_updated += __builtin_popcountll(hit | free);
-      const std::uint64_t open = (free & ~block.at_min[z]) | (hit & ~block.at_max[z]);
-      worked |= open;
-      if (open != 0) enterPlane(block, z, free, hit);
+      if (free[z] != 0) vote(block, z, free[z], log_odds_.miss);
+      if (hit[z] != 0) vote(block, z, hit[z], log_odds_.hit);
     }
-    if (worked == 0) continue;
     noteTree(number);
     Mask differs;
     Mask newly_occupied;
@@ -136,7 +138,10 @@ void BlockMap::setValue(PackedKey voxel, float value) {
   VoxelBlock& block = *blocks_[number];
   const Mask known_before = block.known;
   const Mask occupied_before = block.occupied;
-  setVoxel(block, static_cast<std::size_t>(wordOf(voxel)), bitOf(voxel), value);
+  const auto z = static_cast<std::size_t>(wordOf(voxel));
+  const int bit = bitOf(voxel);
+  block.log_odds[z * 64 + static_cast<std::size_t>(bit)] = 0.0F;
+  vote(block, z, std::uint64_t{1} << bit, value);
   noteTree(number);
   if (block.known != known_before || block.occupied != occupied_before)
     noteStatus(number, known_before, occupied_before);

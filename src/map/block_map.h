@@ -78,8 +78,8 @@ class BlockMap {
 
  private:
   std::uint32_t findOrCreate(PackedKey voxel);
-  void enterPlane(VoxelBlock& block, std::size_t z, std::uint64_t free, std::uint64_t hit);
-  void setVoxel(VoxelBlock& block, std::size_t z, int bit, float value);
+  /// Adds to the log-odds of some voxels of a plane.
+  void vote(VoxelBlock& block, std::size_t z, std::uint64_t voxels, float log_odds);
   void noteTree(std::uint32_t number);
   void sortAlongTree(std::vector<std::uint32_t>& numbers) const;
   void noteStatus(std::uint32_t number, const Mask& known_before, const Mask& occupied_before);
