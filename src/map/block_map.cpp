@@ -93,39 +93,52 @@ void BlockMap::vote(VoxelBlock& block, std::size_t z, std::uint64_t voxels, floa
   block.tree_stale[z] |= voxels;
 }
 
+void BlockMap::enter(const ScanMarks::Block& marked, std::uint32_t number, Extent& changed,
+                     MapUpdate& update) {
+  VoxelBlock& block = *blocks_[number];
+  Mask hit;
+  Mask free;
+  std::uint64_t open = 0;  // what another vote can change
+  for (std::size_t z = 0; z < kBlockSide; ++z) {
+    update.voxels_updated += __builtin_popcountll(marked.hit[z] | marked.free[z]);
+    hit[z] = marked.hit[z] & ~block.at_max[z];
+    free[z] = marked.free[z] & ~marked.hit[z] & ~block.at_min[z];  // occupied wins within a scan
+    open |= hit[z] | free[z];
+  }
+  if (open == 0) return;
+  const Mask known_before = block.known;
+  const Mask occupied_before = block.occupied;
+  for (std::size_t z = 0; z < kBlockSide; ++z) {
+    if (free[z] != 0) vote(block, z, free[z], log_odds_.miss);
+    if (hit[z] != 0) vote(block, z, hit[z], log_odds_.hit);
+  }
+  noteTree(number);
+  Mask differs;
+  Mask newly_occupied;
+  for (std::size_t z = 0; z < kBlockSide; ++z) {
+    newly_occupied[z] = block.occupied[z] & ~occupied_before[z];
+    differs[z] = (block.known[z] ^ known_before[z]) | (block.occupied[z] ^ occupied_before[z]);
+  }
+  if (isEmpty(differs)) return;
+  noteStatus(number, known_before, occupied_before);
+  update.voxels_changed_status += countOf(differs);
+  addVoxels(block, newly_occupied, update.newly_occupied);
+  grow(changed, extentIn(block, differs));
+}
+
 void BlockMap::apply(const ScanMarks& marks, double resolution_m, MapUpdate& update) {
   Extent changed{VoxelIndex::Constant(1 << 30), VoxelIndex::Constant(-(1 << 30))};
-  for (const ScanMarks::Block& marked : marks.blocks()) {
-    const std::uint32_t number = findOrCreate(marked.key);
-    VoxelBlock& block = *blocks_[number];
-    Mask hit;
-    Mask free;
-    std::uint64_t open = 0;  // what another vote can change
-    for (std::size_t z = 0; z < kBlockSide; ++z) {
-      update.voxels_updated += __builtin_popcountll(marked.hit[z] | marked.free[z]);
-      hit[z] = marked.hit[z] & ~block.at_max[z];
-      free[z] = marked.free[z] & ~marked.hit[z] & ~block.at_min[z];  // occupied wins within a scan
-      open |= hit[z] | free[z];
+  constexpr std::size_t kAhead = 16;  // blocks asked from memory before the first is read
+  std::array<std::uint32_t, kAhead> numbers;
+  const std::vector<ScanMarks::Block>& marked = marks.blocks();
+  for (std::size_t first = 0; first < marked.size(); first += kAhead) {
+    const std::size_t count = std::min(kAhead, marked.size() - first);
+    for (std::size_t i = 0; i < count; ++i) {
+      numbers[i] = findOrCreate(marked[first + i].key);
+      __builtin_prefetch(&blocks_[numbers[i]]->at_min);
+      __builtin_prefetch(&blocks_[numbers[i]]->at_max);
     }
-    if (open == 0) continue;
-    const Mask known_before = block.known;
-    const Mask occupied_before = block.occupied;
-    for (std::size_t z = 0; z < kBlockSide; ++z) {
-      if (free[z] != 0) vote(block, z, free[z], log_odds_.miss);
-      if (hit[z] != 0) vote(block, z, hit[z], log_odds_.hit);
-    }
-    noteTree(number);
-    Mask differs;
-    Mask newly_occupied;
-    for (std::size_t z = 0; z < kBlockSide; ++z) {
-      newly_occupied[z] = block.occupied[z] & ~occupied_before[z];
-      differs[z] = (block.known[z] ^ known_before[z]) | (block.occupied[z] ^ occupied_before[z]);
-    }
-    if (isEmpty(differs)) continue;
-    noteStatus(number, known_before, occupied_before);
-    update.voxels_changed_status += countOf(differs);
-    addVoxels(block, newly_occupied, update.newly_occupied);
-    grow(changed, extentIn(block, differs));
+    for (std::size_t i = 0; i < count; ++i) enter(marked[first + i], numbers[i], changed, update);
   }
   update.changed = emptyBox();
   if ((changed.min.array() > changed.max.array()).any()) return;

@@ -20,14 +20,14 @@ struct LogOdds {
 };
 
 /// 8x8x8 voxels: their log-odds and what is asked often as bits.
-struct VoxelBlock {
-  PackedKey key = 0;  ///< Of the first voxel.
-  std::array<float, kBlockVoxels> log_odds{};
+struct alignas(64) VoxelBlock {
+  Mask at_min{};  ///< Clamped: another miss changes nothing.
+  Mask at_max{};  ///< Clamped: another hit changes nothing.
   Mask known{};
   Mask occupied{};
-  Mask at_min{};      ///< Clamped: another miss changes nothing.
-  Mask at_max{};      ///< Clamped: another hit changes nothing.
   Mask tree_stale{};  ///< Value changed since the OcTree was brought up to date.
+  std::array<float, kBlockVoxels> log_odds{};
+  PackedKey key = 0;  ///< Of the first voxel.
   bool is_tree_listed = false;
   bool is_status_listed = false;
 
@@ -78,6 +78,8 @@ class BlockMap {
 
  private:
   std::uint32_t findOrCreate(PackedKey voxel);
+  void enter(const ScanMarks::Block& marked, std::uint32_t number, Extent& changed,
+             MapUpdate& update);
   /// Adds to the log-odds of some voxels of a plane.
   void vote(VoxelBlock& block, std::size_t z, std::uint64_t voxels, float log_odds);
   void noteTree(std::uint32_t number);
