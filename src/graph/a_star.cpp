@@ -1,30 +1,18 @@
 #include "spelunk/graph/a_star.h"
 
 #include <algorithm>
-#include <boost/graph/adjacency_list.hpp>
 #include <boost/graph/astar_search.hpp>
 #include <limits>
 
+#include "boost_view.h"
 #include "spelunk/common/contract.h"
 
 namespace spelunk::graph {
 namespace {
 
-using Weight = boost::property<boost::edge_weight_t, double>;
-using BoostGraph =
-    boost::adjacency_list<boost::vecS, boost::vecS, boost::undirectedS, boost::no_property, Weight>;
-
 VertexId idOf(std::size_t i) { return VertexId{static_cast<std::uint32_t>(i)}; }
 
-BoostGraph toBoost(const SpatialGraph& graph) {
-  BoostGraph copy(graph.vertexCount());
-  for (std::size_t i = 0; i < graph.vertexCount(); ++i)
-    for (const Neighbour& n : graph.neighbours(idOf(i)))
-      if (i < indexOf(n.id)) boost::add_edge(i, indexOf(n.id), Weight(n.weight), copy);
-  return copy;
-}
-
-class StraightDistance : public boost::astar_heuristic<BoostGraph, double> {
+class StraightDistance : public boost::astar_heuristic<BoostView, double> {
  public:
   StraightDistance(const SpatialGraph& graph, VertexId goal) : graph_(&graph), goal_(goal) {}
   double operator()(std::size_t vertex) const {
@@ -41,7 +29,7 @@ struct GoalReached {};
 class StopAtGoal : public boost::default_astar_visitor {
  public:
   explicit StopAtGoal(VertexId goal) : goal_(indexOf(goal)) {}
-  void examine_vertex(std::size_t vertex, const BoostGraph& /*graph*/) const {
+  void examine_vertex(std::size_t vertex, const BoostView& /*graph*/) const {
     if (vertex == goal_) throw GoalReached{};  // Boost's own way to end a search early
   }
 
@@ -56,12 +44,14 @@ FoundPath findShortestPath(const SpatialGraph& graph, VertexId from, VertexId to
           "findShortestPath: no such vertex");
   FoundPath found;
   found.length = std::numeric_limits<double>::infinity();
-  const BoostGraph copy = toBoost(graph);
   std::vector<std::size_t> before(graph.vertexCount());
   std::vector<double> distance(graph.vertexCount(), found.length);
   try {
-    boost::astar_search(copy, indexOf(from), StraightDistance(graph, to),
-                        boost::predecessor_map(before.data())
+    const boost::typed_identity_property_map<std::size_t> number;
+    boost::astar_search(BoostView(graph), indexOf(from), StraightDistance(graph, to),
+                        boost::vertex_index_map(number)
+                            .weight_map(BoostView::Weights{})
+                            .predecessor_map(before.data())
                             .distance_map(distance.data())
                             .distance_inf(found.length)
                             .visitor(StopAtGoal(to)));
