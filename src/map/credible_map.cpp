@@ -8,6 +8,7 @@
 
 #include "frozen_blocks.h"
 #include "spelunk/common/contract.h"
+#include "spelunk/common/wide_loops.h"
 
 namespace spelunk::map {
 namespace {
@@ -42,33 +43,30 @@ class Rows {
   std::vector<std::uint64_t> words_;
 };
 
-template <class Combine>
-void combineLayers(Rows& rows, int to, int from, Combine&& combine) {
-  std::uint64_t* out = rows.layer(to);
-  const std::uint64_t* in = rows.layer(from);
-  for (int y = 0; y < kRows; ++y) out[y] = combine(out[y], in[y]);
-}
-
 /// Each layer becomes the union of itself and the `length` - 1 below it.
-void spreadUp(Rows& rows, int length) {
+SPELUNK_WIDE_IF_POSSIBLE void spreadUp(Rows& rows, int length) {
   for (int done = 1; done < length;) {
     const int shift = std::min(done, length - done);
-    for (int z = rows.layers() - 1; z >= shift; --z)
-      combineLayers(rows, z, z - shift, [](std::uint64_t a, std::uint64_t b) { return a | b; });
+    for (int z = rows.layers() - 1; z >= shift; --z) {
+      std::uint64_t* layer = rows.layer(z);
+      const std::uint64_t* below = rows.layer(z - shift);
+      for (int y = 0; y < kRows; ++y) layer[y] |= below[y];
+    }
     done += shift;
   }
 }
 
 /// Each layer becomes the intersection of itself and the `length` - 1 above it; no bits above all.
-void shrinkDown(Rows& rows, int length) {
+SPELUNK_WIDE_IF_POSSIBLE void shrinkDown(Rows& rows, int length) {
   for (int done = 1; done < length;) {
     const int shift = std::min(done, length - done);
-    for (int z = 0; z < rows.layers(); ++z) {
-      if (z + shift < rows.layers())
-        combineLayers(rows, z, z + shift, [](std::uint64_t a, std::uint64_t b) { return a & b; });
-      else
-        std::fill_n(rows.layer(z), kRows, 0);
+    const int kept = std::max(0, rows.layers() - shift);
+    for (int z = 0; z < kept; ++z) {
+      std::uint64_t* layer = rows.layer(z);
+      const std::uint64_t* above = rows.layer(z + shift);
+      for (int y = 0; y < kRows; ++y) layer[y] &= above[y];
     }
+    for (int z = kept; z < rows.layers(); ++z) std::fill_n(rows.layer(z), kRows, 0);
     done += shift;
   }
 }
@@ -133,7 +131,7 @@ class ChunkFilter {
 
   /// Step 1: a closing by gap + 1 in z finds the gaps; free space spreads up and down through them;
   /// what it does not reach is solid.
-  void closeColumns() {
+  SPELUNK_WIDE_IF_POSSIBLE void closeColumns() {
     if (gap_ <= 0) return;
     for (int z = 0; z < gaps_.layers(); ++z)
       for (int y = 0; y < kRows; ++y) gaps_.at(y, z) = free_.at(y, z) | occupied_.at(y, z);
@@ -151,7 +149,7 @@ class ChunkFilter {
   }
 
   /// Step 2, where the chunk itself is affected.
-  void growOccupied() {
+  SPELUNK_WIDE_IF_POSSIBLE void growOccupied() {
     if (reach_ <= 0) return;
     for (int z = halo_ - 1; z <= halo_ + kChunkSide; ++z) {
       std::uint64_t row[kRows];

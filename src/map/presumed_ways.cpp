@@ -93,6 +93,8 @@ struct PresumedWays::Impl {
   std::shared_ptr<const FrozenMap> map;
   double cell_m;
   std::vector<std::unique_ptr<Field>> fields;  ///< By the number of the chunk; made when entered.
+  PackedKey last_chunk = ~PackedKey{0};        ///< Entered last: neighbours mostly share it.
+  Field* last_field = nullptr;
 
   /// Reached next, nearest first; among equals the lower key, so that ways repeat.
   using Entry = std::pair<float, PackedKey>;
@@ -114,7 +116,16 @@ struct PresumedWays::Impl {
 
   /// The field around a cell; none where nothing was ever seen.
   Field* enter(PackedKey cell) {
-    const std::uint32_t number = map->blocks().table->find(cell & ~kInChunkMask);
+    const PackedKey chunk = cell & ~kInChunkMask;
+    if (chunk != last_chunk) {
+      last_chunk = chunk;
+      last_field = fieldAround(chunk);
+    }
+    return last_field;
+  }
+
+  Field* fieldAround(PackedKey chunk) {
+    const std::uint32_t number = map->blocks().table->find(chunk);
     if (number == KeyTable::kAbsent) return nullptr;
     if (!fields[number])
       fields[number] = std::make_unique<Field>(fieldOf(*map->blocks().chunks[number]));

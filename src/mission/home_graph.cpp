@@ -100,15 +100,13 @@ void HomeGraph::noteZone(const NoGoZone& zone) {
 }
 
 void HomeGraph::noteOccupied(const std::vector<map::VoxelIndex>& voxels) {
-  for (const map::VoxelIndex& voxel : voxels) {
-    for (const auto& hit : swept_.touching(voxel)) {
-      Edge& edge = edges_[hit.id];
-      if (edge.state != EdgeState::kOpen) continue;
-      setState(edge, edge.is_flown ? EdgeState::kTight : EdgeState::kCut);
-      cut_.push_back(hit.id);
-    }
-    for (const auto& hit : swept_tight_.touching(voxel)) setState(edges_[hit.id], EdgeState::kCut);
+  for (const auto& hit : swept_.touching(voxels)) {
+    Edge& edge = edges_[hit.id];
+    if (edge.state != EdgeState::kOpen) continue;
+    setState(edge, edge.is_flown ? EdgeState::kTight : EdgeState::kCut);
+    cut_.push_back(hit.id);
   }
+  for (const auto& hit : swept_tight_.touching(voxels)) setState(edges_[hit.id], EdgeState::kCut);
 }
 
 void HomeGraph::use(const std::shared_ptr<const map::FrozenMap>& map) {

@@ -77,17 +77,24 @@ std::uint64_t SweptIndex::cellOf(const Eigen::Vector3d& point) const {
   return pack(cellIndex(point));
 }
 
-std::vector<SweptIndex::Hit> SweptIndex::touching(const map::VoxelIndex& voxel) const {
-  const Eigen::Vector3d centre =
-      resolution_m_ * (voxel.cast<double>() + Eigen::Vector3d::Constant(0.5));
-  std::vector<Hit> hits;
-  const auto cell = cells_.find(cellOf(centre));
-  if (cell == cells_.end()) return hits;
+std::vector<SweptIndex::Hit> SweptIndex::touching(
+    const std::vector<map::VoxelIndex>& voxels) const {
   const Eigen::Vector3d half = half_ + Eigen::Vector3d::Constant(0.5 * resolution_m_ + kTouch_m);
-  for (const std::uint32_t number : cell->second) {
-    const Sweep& sweep = sweeps_[number];
-    if (const auto share = entry(sweep.a, sweep.b, centre, half))
-      hits.push_back({sweep.id, sweep.from + *share * (sweep.to - sweep.from)});
+  std::vector<Hit> hits;
+  std::optional<std::uint64_t> last;
+  auto near = cells_.end();
+  for (const map::VoxelIndex& voxel : voxels) {
+    const Eigen::Vector3d centre =
+        resolution_m_ * (voxel.cast<double>() + Eigen::Vector3d::Constant(0.5));
+    const std::uint64_t cell = cellOf(centre);
+    if (cell != last) near = cells_.find(cell);
+    last = cell;
+    if (near == cells_.end()) continue;
+    for (const std::uint32_t number : near->second) {
+      const Sweep& sweep = sweeps_[number];
+      if (const auto share = entry(sweep.a, sweep.b, centre, half))
+        hits.push_back({sweep.id, sweep.from + *share * (sweep.to - sweep.from)});
+    }
   }
   return hits;
 }
@@ -106,11 +113,9 @@ PathMonitor::PathMonitor(const Path& path, const Eigen::Vector3d& box, double re
 std::optional<double> PathMonitor::firstHit(const std::vector<map::VoxelIndex>& voxels,
                                             double from_m) const {
   std::optional<double> first;
-  for (const map::VoxelIndex& voxel : voxels) {
-    for (const SweptIndex::Hit& hit : index_.touching(voxel)) {
-      const double arc = arc_m_[hit.id] + hit.along * (arc_m_[hit.id + 1] - arc_m_[hit.id]);
-      if (arc >= from_m && (!first || arc < *first)) first = arc;
-    }
+  for (const SweptIndex::Hit& hit : index_.touching(voxels)) {
+    const double arc = arc_m_[hit.id] + hit.along * (arc_m_[hit.id + 1] - arc_m_[hit.id]);
+    if (arc >= from_m && (!first || arc < *first)) first = arc;
   }
   return first;
 }

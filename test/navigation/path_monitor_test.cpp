@@ -66,12 +66,12 @@ TEST(SweptIndex, NamesEverySweepThatTouches) {
   SweptIndex index(kBox, kResolution_m);
   index.add({0.0, 0.0, 0.0}, {10.0, 0.0, 0.0}, 7);
   index.add({5.0, -5.0, 0.0}, {5.0, 5.0, 0.0}, 9);
-  const auto hits = index.touching(map::VoxelIndex(25, 0, 0));
+  const auto hits = index.touching({map::VoxelIndex(25, 0, 0)});
   std::vector<std::uint32_t> ids;
   for (const auto& hit : hits) ids.push_back(hit.id);
   EXPECT_NE(std::find(ids.begin(), ids.end(), 7U), ids.end());
   EXPECT_NE(std::find(ids.begin(), ids.end(), 9U), ids.end());
-  EXPECT_TRUE(index.touching(map::VoxelIndex(25, 0, 20)).empty());
+  EXPECT_TRUE(index.touching({map::VoxelIndex(25, 0, 20)}).empty());
 }
 
 }  // namespace

@@ -25,8 +25,9 @@ class SweptIndex {
     std::uint32_t id = 0;
     double along = 0.0;  ///< Share of the sweep, 0 at `a`, where the box first touches the voxel.
   };
-  /// All sweeps whose box touches the voxel, in the order they were added.
-  [[nodiscard]] std::vector<Hit> touching(const map::VoxelIndex& voxel) const;
+  /// For voxel after voxel all sweeps whose box touches it, in the order they were added. Fastest
+  /// where neighbours come one after the other.
+  [[nodiscard]] std::vector<Hit> touching(const std::vector<map::VoxelIndex>& voxels) const;
 
  private:
   struct Sweep {
