@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "spelunk/common/stopwatch.h"
+#include "spelunk/graph/a_star.h"
 #include "spelunk/planners/gbplanner/exploration_gain.h"
 #include "spelunk/planners/gbplanner/global_search.h"
 #include "spelunk/planners/gbplanner/improve_path.h"
@@ -77,8 +78,11 @@ struct GbPlanner::Search {
       planner.global_.forgetChecksNear(root, longestRange(planner.robot_));
       planner.checked_map_ = request.map;
     }
+  }
+
+  void measureWayHome() {
     way_home_m =
-        graph::shortestPaths(planner.global_.graph(), current).distanceTo(GlobalGraph::home());
+        graph::findShortestPath(planner.global_.graph(), current, GlobalGraph::home()).length;
   }
 
   void planLocally(const GbPlannerParams& params) {
@@ -331,6 +335,7 @@ PlanResult GbPlanner::doPlan(const PlanRequest& request) {
   search.root = *start.root;
   search.noteOutcome();
   search.joinGlobalGraph();
+  search.measureWayHome();
   search.planLocally(params_);
   search.extendGlobalGraph();
   search.choose();

@@ -4,6 +4,7 @@
 #include <iterator>
 
 #include "spelunk/common/contract.h"
+#include "spelunk/graph/a_star.h"
 
 namespace spelunk::planners {
 
@@ -122,7 +123,7 @@ void GlobalGraph::dropFrontiersBelow(double gain_m3) {
 
 Polyline GlobalGraph::findFreePath(VertexId from, VertexId to, const FreeSpace& space) {
   for (;;) {
-    const std::vector<VertexId> way = graph::shortestPaths(graph_, from).pathTo(to);
+    const std::vector<VertexId> way = graph::findShortestPath(graph_, from, to).vertices;
     bool is_free = !way.empty();
     for (std::size_t i = 1; i < way.size(); ++i) {
       const Edge edge{std::min(way[i - 1], way[i]), std::max(way[i - 1], way[i])};
