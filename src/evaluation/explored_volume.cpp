@@ -2,32 +2,71 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+
+#include "ray_block.h"
+
+#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__)
+#define SPELUNK_WIDE_IF_POSSIBLE __attribute__((target_clones("avx512f", "avx2", "default")))
+#else
+#define SPELUNK_WIDE_IF_POSSIBLE
+#endif
 
 namespace spelunk::evaluation {
 namespace {
 
 constexpr double kCountedPeriod_s = 0.2;  // of the scans of one sensor
+constexpr double kOutside = -1.0;
 
-/// One axis of a voxel walk (Amanatides and Woo, A Fast Voxel Traversal Algorithm for Ray Tracing,
-/// Eurographics 1987); lengths in voxels.
-struct Axis {
-  double next = std::numeric_limits<double>::infinity();  ///< Length at which it steps next.
-  double spacing = std::numeric_limits<double>::infinity();
-  double exit = std::numeric_limits<double>::infinity();  ///< Length at which the grid ends.
-  std::ptrdiff_t stride = 0;                              ///< Change of the grid's offset.
+/// Where the voxels lie in which the rays of a scan end.
+struct EndFrame {
+  Eigen::Vector3d origin;  ///< Of the rays.
+  Eigen::Vector3d corner;  ///< Of the grid.
+  Eigen::Vector3d size;    ///< Of the grid, voxels.
+  double resolution_m;
 };
 
-Axis axisOf(double from, double direction, int size, std::ptrdiff_t stride) {
-  Axis axis;
-  if (direction == 0.0) return axis;
-  const bool is_up = direction > 0.0;
-  const double cell = std::floor(from);
-  axis.spacing = std::abs(1.0 / direction);
-  axis.next = (is_up ? cell + 1.0 - from : from - cell) * axis.spacing;
-  axis.exit = (is_up ? size - from : from) * axis.spacing;
-  axis.stride = is_up ? stride : -stride;
-  return axis;
+/// The offsets of those voxels as numbers that are wide loops' own, or kOutside.
+struct Ends {
+  alignas(64) double of[RayBlock::kRays];
+};
+
+// Plain loops, so that the compiler makes wide ones of them where the machine has them; the
+// results are the same.
+
+SPELUNK_WIDE_IF_POSSIBLE void turn(const Eigen::Vector3f* directions, const Eigen::Matrix3d& R,
+                                   RayBlock& rays) {
+  const double r00 = R(0, 0), r01 = R(0, 1), r02 = R(0, 2);
+  const double r10 = R(1, 0), r11 = R(1, 1), r12 = R(1, 2);
+  const double r20 = R(2, 0), r21 = R(2, 1), r22 = R(2, 2);
+  const float* from = directions->data();
+  for (std::size_t i = 0; i < rays.count; ++i) {
+    const double x = from[3 * i], y = from[3 * i + 1], z = from[3 * i + 2];
+    rays.x[i] = r00 * x + r01 * y + r02 * z;
+    rays.y[i] = r10 * x + r11 * y + r12 * z;
+    rays.z[i] = r20 * x + (r21 * y + r22 * z);  // the order in which Eigen adds
+  }
+}
+
+SPELUNK_WIDE_IF_POSSIBLE void end(const float* ranges, const EndFrame& frame, RayBlock& rays,
+                                  Ends& ends) {
+  const double resolution = frame.resolution_m;
+  const double scale = 1.0 / resolution;
+  const double origin_x = frame.origin.x(), origin_y = frame.origin.y();
+  const double origin_z = frame.origin.z();
+  const double corner_x = frame.corner.x(), corner_y = frame.corner.y();
+  const double corner_z = frame.corner.z();
+  const double size_x = frame.size.x(), size_y = frame.size.y(), size_z = frame.size.z();
+  for (std::size_t i = 0; i < rays.count; ++i) {
+    const double range = ranges[i];
+    rays.length[i] = range / resolution;
+    const double x = std::floor((origin_x + range * rays.x[i] - corner_x) * scale);
+    const double y = std::floor((origin_y + range * rays.y[i] - corner_y) * scale);
+    const double z = std::floor((origin_z + range * rays.z[i] - corner_z) * scale);
+    const double lowest = std::min(x, std::min(y, z));
+    const double beyond = std::max(x - size_x, std::max(y - size_y, z - size_z));
+    const double offset = x + size_x * (y + size_y * z);
+    ends.of[i] = lowest >= 0.0 && beyond < 0.0 ? offset : kOutside;
+  }
 }
 
 }  // namespace
@@ -44,59 +83,46 @@ bool ExploredVolume::takes(const Scan& scan) {
   return thinnings_.try_emplace(scan.sensor, kCountedPeriod_s).first->second.takes(scan.stamp_s);
 }
 
-bool ExploredVolume::isFirstToEndIn(const Eigen::Vector3d& end) {
-  const Eigen::Vector3i cell = endings_.cellOf(end);
-  if (!endings_.contains(cell)) return true;
-  const std::size_t offset = endings_.offsetOf(cell);
-  if (!endings_.set(offset)) return false;
-  marked_endings_.push_back(offset);
-  return true;
-}
-
-void ExploredVolume::walk(const Eigen::Vector3d& from, const Eigen::Vector3d& direction,
-                          double length) {
-  const Eigen::Vector3i& size = seen_.size();
-  const std::ptrdiff_t row = size.x();
-  const Axis x = axisOf(from.x(), direction.x(), size.x(), 1);
-  const Axis y = axisOf(from.y(), direction.y(), size.y(), row);
-  const Axis z = axisOf(from.z(), direction.z(), size.z(), row * size.y());
-  constexpr double kInside = 1e-6;  // voxels: rounding must not lead out of the grid
-  const double limit = std::min({length, x.exit - kInside, y.exit - kInside, z.exit - kInside});
-  double next_x = x.next;
-  double next_y = y.next;
-  double next_z = z.next;
-  auto offset = static_cast<std::ptrdiff_t>(seen_.offsetOf(from.array().floor().cast<int>()));
-  std::size_t found = 0;
-  const auto leave = [&](double& next, const Axis& axis) {
-    found += seen_.set(static_cast<std::size_t>(offset)) ? 1 : 0;
-    if (next > limit) return false;
-    offset += axis.stride;
-    next += axis.spacing;
-    return true;
-  };
-  for (bool is_going = true; is_going;) {
-    if (next_x < next_y)
-      is_going = next_x < next_z ? leave(next_x, x) : leave(next_z, z);
-    else
-      is_going = next_y < next_z ? leave(next_y, y) : leave(next_z, z);
+/// Without branches but the first: nothing foretells which rays share an ending.
+void ExploredVolume::keepFirstOnes(const double* ends, RayBlock& rays) {
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < rays.count; ++i) {
+    rays.x[kept] = rays.x[i];
+    rays.y[kept] = rays.y[i];
+    rays.z[kept] = rays.z[i];
+    rays.length[kept] = rays.length[i];
+    if (ends[i] == kOutside) {
+      ++kept;
+      continue;
+    }
+    const auto voxel = static_cast<std::size_t>(ends[i]);
+    const std::size_t is_first = endings_.set(voxel) ? 1 : 0;
+    marked_endings_[endings_count_] = voxel;
+    endings_count_ += is_first;
+    kept += is_first;
   }
-  voxels_ += found;
+  rays.count = kept;
 }
 
 void ExploredVolume::add(const sim::SimulatedScan& scan) {
   if (choice_ == RayChoice::kOneAnEnding && !takes(scan.scan)) return;
   const Eigen::Matrix3d rotation = scan.T_world_sensor_true.linear();
   const Eigen::Vector3d origin = scan.T_world_sensor_true.translation();
-  const Eigen::Vector3d from = seen_.scaled(origin);
   if (!seen_.contains(seen_.cellOf(origin))) return;
-  for (std::size_t i = 0; i < scan.true_ranges.size(); ++i) {
-    const Eigen::Vector3d direction = rotation * (*scan.directions)[i].cast<double>();
-    const double range = scan.true_ranges[i];
-    if (choice_ == RayChoice::kAll || isFirstToEndIn(origin + range * direction))
-      walk(from, direction, range / seen_.resolution());
+  const EndFrame frame{origin, seen_.corner(), seen_.size().cast<double>(), seen_.resolution()};
+  RayBlock rays;
+  rays.from = seen_.scaled(origin);
+  Ends ends;
+  marked_endings_.resize(scan.true_ranges.size());
+  for (std::size_t first = 0; first < scan.true_ranges.size(); first += RayBlock::kRays) {
+    rays.count = std::min(RayBlock::kRays, scan.true_ranges.size() - first);
+    turn(&(*scan.directions)[first], rotation, rays);
+    end(&scan.true_ranges[first], frame, rays, ends);
+    if (choice_ == RayChoice::kOneAnEnding) keepFirstOnes(ends.of, rays);
+    voxels_ += mark(rays, seen_);
   }
-  for (const std::size_t offset : marked_endings_) endings_.clear(offset);
-  marked_endings_.clear();
+  for (std::size_t i = 0; i < endings_count_; ++i) endings_.clear(marked_endings_[i]);
+  endings_count_ = 0;
 }
 
 }  // namespace spelunk::evaluation

@@ -12,6 +12,8 @@
 
 namespace spelunk::evaluation {
 
+struct RayBlock;
+
 /// Which rays of a scan are walked.
 enum class RayChoice {
   kAll,         ///< Every ray of every scan.
@@ -32,14 +34,13 @@ class ExploredVolume {
   [[nodiscard]] double volume_m3() const;
 
  private:
-  /// From a point of the grid; point and length in voxels.
-  void walk(const Eigen::Vector3d& from, const Eigen::Vector3d& direction, double length);
   [[nodiscard]] bool takes(const Scan& scan);
-  [[nodiscard]] bool isFirstToEndIn(const Eigen::Vector3d& end);
+  void keepFirstOnes(const double* ends, RayBlock& rays);
 
   VoxelGrid seen_;
   VoxelGrid endings_;                        ///< Of the scan at hand.
   std::vector<std::size_t> marked_endings_;  ///< To wipe them again.
+  std::size_t endings_count_ = 0;
   RayChoice choice_;
   std::map<std::string, ScanThinning> thinnings_;  ///< By sensor.
   std::size_t voxels_ = 0;

@@ -15,6 +15,8 @@ class VoxelGrid {
   VoxelGrid(const AxisAlignedBox& bounds, double resolution_m);
 
   [[nodiscard]] double resolution() const { return resolution_m_; }
+  /// Of the grid, the lowest.
+  [[nodiscard]] const Eigen::Vector3d& corner() const { return corner_; }
   [[nodiscard]] const Eigen::Vector3i& size() const { return shape_.size; }
   [[nodiscard]] Eigen::Vector3i cellOf(const Eigen::Vector3d& point) const {
     return scaled(point).array().floor().cast<int>();
@@ -34,6 +36,8 @@ class VoxelGrid {
   [[nodiscard]] bool isSet(std::size_t offset) const {
     return (words_[offset >> 6] >> (offset & 63) & 1) != 0;
   }
+  /// Bit `offset % 64` of word `offset / 64` is the one of an offset.
+  [[nodiscard]] const std::uint64_t* words() const { return words_.data(); }
   /// Sets the bit; whether it was clear before.
   bool set(std::size_t offset) {
     std::uint64_t& word = words_[offset >> 6];
