@@ -11,6 +11,7 @@
 
 // GCC 12 takes the deliberately undefined operands inside its own intrinsics for mistakes.
 #pragma GCC diagnostic ignored "-Wmaybe-uninitialized"
+#pragma GCC diagnostic ignored "-Wuninitialized"
 #define SPELUNK_WIDE __attribute__((target("avx512f"), always_inline)) inline
 #endif
 

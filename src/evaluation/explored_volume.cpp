@@ -17,7 +17,7 @@ namespace {
 constexpr double kCountedPeriod_s = 0.2;  // of the scans of one sensor
 constexpr double kOutside = -1.0;
 
-/// Where the voxels lie in which the rays of a scan end.
+/// What it takes to find the voxels in which the rays of a scan end.
 struct EndFrame {
   Eigen::Vector3d origin;  ///< Of the rays.
   Eigen::Vector3d corner;  ///< Of the grid.
@@ -25,7 +25,7 @@ struct EndFrame {
   double resolution_m;
 };
 
-/// The offsets of those voxels as numbers that are wide loops' own, or kOutside.
+/// The offsets of those voxels (whole numbers; doubles suit wide loops), or kOutside.
 struct Ends {
   alignas(64) double of[RayBlock::kRays];
 };
@@ -47,8 +47,8 @@ SPELUNK_WIDE_IF_POSSIBLE void turn(const Eigen::Vector3f* directions, const Eige
   }
 }
 
-SPELUNK_WIDE_IF_POSSIBLE void end(const float* ranges, const EndFrame& frame, RayBlock& rays,
-                                  Ends& ends) {
+SPELUNK_WIDE_IF_POSSIBLE void findEnds(const float* ranges, const EndFrame& frame, RayBlock& rays,
+                                       Ends& ends) {
   const double resolution = frame.resolution_m;
   const double scale = 1.0 / resolution;
   const double origin_x = frame.origin.x(), origin_y = frame.origin.y();
@@ -117,7 +117,7 @@ void ExploredVolume::add(const sim::SimulatedScan& scan) {
   for (std::size_t first = 0; first < scan.true_ranges.size(); first += RayBlock::kRays) {
     rays.count = std::min(RayBlock::kRays, scan.true_ranges.size() - first);
     turn(&(*scan.directions)[first], rotation, rays);
-    end(&scan.true_ranges[first], frame, rays, ends);
+    findEnds(&scan.true_ranges[first], frame, rays, ends);
     if (choice_ == RayChoice::kOneAnEnding) keepFirstOnes(ends.of, rays);
     voxels_ += mark(rays, seen_);
   }

@@ -37,8 +37,7 @@ std::size_t walk(const Eigen::Vector3d& from, const Eigen::Vector3d& direction, 
   Axis x = axisOf(from.x(), direction.x(), size.x(), 1);
   Axis y = axisOf(from.y(), direction.y(), size.y(), row);
   Axis z = axisOf(from.z(), direction.z(), size.z(), row * size.y());
-  const double limit =
-      std::min({length, x.exit - kInside, y.exit - kInside, z.exit - kInside});
+  const double limit = std::min({length, x.exit - kInside, y.exit - kInside, z.exit - kInside});
   auto offset = static_cast<std::ptrdiff_t>(grid.offsetOf(from.array().floor().cast<int>()));
   std::size_t found = 0;
   const auto leave = [&](Axis& axis) {

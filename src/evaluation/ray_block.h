@@ -13,7 +13,7 @@ struct RayBlock {
   static constexpr std::size_t kRays = 256;
 
   Eigen::Vector3d from = Eigen::Vector3d::Zero();
-  std::size_t count = 0;  ///< Rays in use.
+  std::size_t count = 0;        ///< Rays in use.
   alignas(64) double x[kRays];  ///< Directions, of unit length.
   alignas(64) double y[kRays];
   alignas(64) double z[kRays];

@@ -35,12 +35,13 @@ class ExploredVolume {
 
  private:
   [[nodiscard]] bool takes(const Scan& scan);
+  /// Of the rays that end in one voxel of the scan at hand, all but the first go.
   void keepFirstOnes(const double* ends, RayBlock& rays);
 
   VoxelGrid seen_;
   VoxelGrid endings_;                        ///< Of the scan at hand.
   std::vector<std::size_t> marked_endings_;  ///< To wipe them again.
-  std::size_t endings_count_ = 0;
+  std::size_t endings_count_ = 0;            ///< Of those in use.
   RayChoice choice_;
   std::map<std::string, ScanThinning> thinnings_;  ///< By sensor.
   std::size_t voxels_ = 0;

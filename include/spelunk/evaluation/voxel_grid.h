@@ -15,7 +15,7 @@ class VoxelGrid {
   VoxelGrid(const AxisAlignedBox& bounds, double resolution_m);
 
   [[nodiscard]] double resolution() const { return resolution_m_; }
-  /// Of the grid, the lowest.
+  /// The lowest point of the grid.
   [[nodiscard]] const Eigen::Vector3d& corner() const { return corner_; }
   [[nodiscard]] const Eigen::Vector3i& size() const { return shape_.size; }
   [[nodiscard]] Eigen::Vector3i cellOf(const Eigen::Vector3d& point) const {
