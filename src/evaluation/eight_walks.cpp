@@ -111,11 +111,6 @@ __attribute__((target("avx512f"))) std::size_t markEight(const RayBlock& rays, s
 
 }  // namespace
 
-bool hasEightLanes() {
-  static const bool has = __builtin_cpu_supports("avx512f") != 0;
-  return has;
-}
-
 std::size_t markByEights(const RayBlock& rays, VoxelGrid& grid) {
   std::size_t found = 0;
   for (std::size_t first = 0; first < rays.count; first += kLanes)
@@ -124,8 +119,6 @@ std::size_t markByEights(const RayBlock& rays, VoxelGrid& grid) {
 }
 
 #else
-
-bool hasEightLanes() { return false; }
 
 std::size_t markByEights(const RayBlock&, VoxelGrid&) {
   require(false, "markByEights: this processor has no registers of eight lanes");

@@ -4,12 +4,7 @@
 #include <cmath>
 
 #include "ray_block.h"
-
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__)
-#define SPELUNK_WIDE_IF_POSSIBLE __attribute__((target_clones("avx512f", "avx2", "default")))
-#else
-#define SPELUNK_WIDE_IF_POSSIBLE
-#endif
+#include "spelunk/common/wide_loops.h"
 
 namespace spelunk::evaluation {
 namespace {
@@ -29,9 +24,6 @@ struct EndFrame {
 struct Ends {
   alignas(64) double of[RayBlock::kRays];
 };
-
-// Plain loops, so that the compiler makes wide ones of them where the machine has them; the
-// results are the same.
 
 SPELUNK_WIDE_IF_POSSIBLE void turn(const Eigen::Vector3f* directions, const Eigen::Matrix3d& R,
                                    RayBlock& rays) {

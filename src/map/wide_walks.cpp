@@ -106,11 +106,6 @@ __attribute__((target("avx512f"))) void walkThroughEight(const RayWalks& walks, 
 
 }  // namespace
 
-bool hasEightLanes() {
-  static const bool has = __builtin_cpu_supports("avx512f") != 0;
-  return has;
-}
-
 void walkThroughByEights(const RayWalks& walks, const RayGrid& grid, std::uint64_t* words) {
   for (std::size_t first = 0; first < walks.count; first += kLanes) {
     const std::size_t count = std::min(kLanes, walks.count - first);
@@ -119,8 +114,6 @@ void walkThroughByEights(const RayWalks& walks, const RayGrid& grid, std::uint64
 }
 
 #else
-
-bool hasEightLanes() { return false; }
 
 void walkThroughByEights(const RayWalks&, const RayGrid&, std::uint64_t*) {
   require(false, "walkThroughByEights: this processor has no registers of eight lanes");

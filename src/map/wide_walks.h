@@ -3,11 +3,9 @@
 #include <cstdint>
 
 #include "ray_grid.h"
+#include "spelunk/common/wide_loops.h"
 
 namespace spelunk::map {
-
-/// Whether this processor has registers of eight doubles (AVX-512) and the program knows them.
-[[nodiscard]] bool hasEightLanes();
 
 /// Marks what the walks pass through, eight of them at a time. Additions and comparisons only, so
 /// the same voxels as one by one. Only where hasEightLanes().

@@ -19,6 +19,8 @@ std::uint64_t pack(const Eigen::Vector3i& index) {
          ((static_cast<std::uint64_t>(index.z()) & kMask) << 42U);
 }
 
+std::size_t hashOf(std::uint64_t cell) { return (cell * 0x9E3779B97F4A7C15ULL) >> 48U; }
+
 Eigen::Vector3i cellIndex(const Eigen::Vector3d& point) {
   return (point / kCell_m).array().floor().cast<int>();
 }
@@ -70,7 +72,12 @@ void SweptIndex::addPiece(const Sweep& sweep) {
   for (int z = low.z(); z <= high.z(); ++z)
     for (int y = low.y(); y <= high.y(); ++y)
       for (int x = low.x(); x <= high.x(); ++x)
-        cells_[pack(Eigen::Vector3i(x, y, z))].push_back(number);
+        addTo(pack(Eigen::Vector3i(x, y, z)), number);
+}
+
+void SweptIndex::addTo(std::uint64_t cell, std::uint32_t number) {
+  cells_[cell].push_back(number);
+  is_near_.set(hashOf(cell));
 }
 
 std::uint64_t SweptIndex::cellOf(const Eigen::Vector3d& point) const {
@@ -87,7 +94,7 @@ std::vector<SweptIndex::Hit> SweptIndex::touching(
     const Eigen::Vector3d centre =
         resolution_m_ * (voxel.cast<double>() + Eigen::Vector3d::Constant(0.5));
     const std::uint64_t cell = cellOf(centre);
-    if (cell != last) near = cells_.find(cell);
+    if (cell != last) near = is_near_[hashOf(cell)] ? cells_.find(cell) : cells_.end();
     last = cell;
     if (near == cells_.end()) continue;
     for (const std::uint32_t number : near->second) {

@@ -8,3 +8,18 @@
 #else
 #define SPELUNK_WIDE_IF_POSSIBLE
 #endif
+
+namespace spelunk {
+
+/// Whether this processor has registers of eight doubles (AVX-512), for functions that are written
+/// for them by hand.
+inline bool hasEightLanes() {
+#ifdef __x86_64__
+  static const bool has = __builtin_cpu_supports("avx512f") != 0;
+  return has;
+#else
+  return false;
+#endif
+}
+
+}  // namespace spelunk

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <bitset>
 #include <cstdint>
 #include <optional>
 #include <unordered_map>
@@ -38,6 +39,7 @@ class SweptIndex {
     std::uint32_t id = 0;
   };
   void addPiece(const Sweep& sweep);
+  void addTo(std::uint64_t cell, std::uint32_t number);
   [[nodiscard]] std::uint64_t cellOf(const Eigen::Vector3d& point) const;
 
   Eigen::Vector3d half_;  ///< Half extents of the box.
@@ -45,6 +47,9 @@ class SweptIndex {
   std::vector<Sweep> sweeps_;
   std::unordered_map<std::uint64_t, std::vector<std::uint32_t>>
       cells_;  ///< Looked up, never walked.
+  /// By a hash of the cell: 0 where no sweep can be. Most voxels are far from all, and this table
+  /// stays in the processor's cache.
+  std::bitset<1U << 16U> is_near_;
 };
 
 /// Tells whether voxels that became occupied lie in the sweep of a path, and where. Built once a
