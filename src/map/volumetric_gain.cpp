@@ -101,6 +101,37 @@ bool countRay(const std::uint8_t* start, const std::int32_t* offsets, std::size_
   return is_open;
 }
 
+/// Sum of the volumes between steps of cones. It has the bits of adding them step by step, though
+/// runs of steps are added at once.
+class VolumeSum {
+ public:
+  /// Adds volumes[k + 1] - volumes[k] for each of the steps from..to-1; volumes never shrink.
+  void addRun(const float* volumes, std::size_t from, std::size_t to) {
+    // All volumes are multiples of the last bit of the smallest one so far, which has less than
+    // 2^24 of them. No sum of up to 2^53 is rounded, in whatever order terms are added.
+    constexpr double kExactlySummed = 1 << 29;
+    finest_ = std::min(finest_, static_cast<double>(volumes[from]));
+    const double sum =
+        sum_ + (static_cast<double>(volumes[to]) - static_cast<double>(volumes[from]));
+    if (sum <= kExactlySummed * finest_)
+      sum_ = sum;
+    else
+      for (std::size_t k = from; k < to; ++k)
+        sum_ += static_cast<double>(volumes[k + 1]) - static_cast<double>(volumes[k]);
+  }
+  [[nodiscard]] double value() const { return sum_; }
+
+ private:
+  double sum_ = 0.0;
+  double finest_ = std::numeric_limits<double>::infinity();
+};
+
+/// What rays have met so far.
+struct Tally {
+  VolumetricGain gain;
+  VolumeSum cones;
+};
+
 /// The cone around a ray: one entry a step, for where the ray enters its voxel, and one for the
 /// end.
 struct Cone {
@@ -112,50 +143,99 @@ struct Cone {
 /// Follows one ray for the volume of its cone.
 class ConeCount {
  public:
-  ConeCount(const Cone& cone, VolumetricGain& gain) : cone_(cone), gain_(gain) {}
+  ConeCount(const Cone& cone, Tally& tally) : cone_(cone), tally_(tally) {}
 
   /// Takes `count` steps through a window; false if the ray ended.
   bool takeSteps(const std::uint8_t* start, const std::int32_t* offsets, std::size_t count) {
     for (std::size_t i = 0; i < count; i += kGathered) {
       const std::size_t cells = std::min(kGathered, count - i);
-      const std::uint64_t gathered = gather(start, offsets + i, cells);
-      const std::uint64_t not_free = gathered ^ kFreeBits;  // cells beyond the last count as such
-      const std::size_t free = not_free == 0 ? kGathered : __builtin_ctzll(not_free) / 8U;
-      gain_.free_voxels += static_cast<int>(free);
-      for (std::size_t k = i + free; k < i + cells; ++k)
-        if (!takeStep(static_cast<Occupancy>((gathered >> (8 * (k - i))) & 3), k)) return false;
+      if (!takeGathered(gather(start, offsets + i, cells), i, i + cells)) return false;
     }
     return true;
   }
 
-  /// Takes steps `from` up to `to`, all of them unknown.
-  void takeUnknown(std::size_t from, std::size_t to) {
-    for (std::size_t k = from; k < to; ++k)
-      if (!takeStep(Occupancy::kUnknown, k)) return;
+  /// Takes steps `from` up to `to`, all of them unknown; false if the ray ended.
+  bool takeUnknown(std::size_t from, std::size_t to) {
+    if (from == to) return true;
+    const float* lengths = cone_.lengths;
+    limit_ = std::min(limit_, lengths[from] + cone_.depth);
+    const bool is_open = lengths[to - 1] < limit_;
+    if (!is_open)
+      to = static_cast<std::size_t>(std::lower_bound(lengths + from, lengths + to, limit_) -
+                                    lengths);
+    tally_.gain.unknown_voxels += static_cast<int>(to - from);
+    tally_.cones.addRun(cone_.volumes, from, to);
+    return is_open;
   }
 
  private:
-  bool takeStep(Occupancy status, std::size_t k) {
-    if (status == Occupancy::kFree) {
-      ++gain_.free_voxels;
-      return true;
+  /// Takes steps `from` up to `to`, whose cells are the lowest bytes.
+  bool takeGathered(std::uint64_t cells, std::size_t from, std::size_t to) {
+    while (from < to) {
+      const auto status = static_cast<Occupancy>(cells & 3);
+      const std::uint64_t others = cells ^ ((cells & 3) * kFreeBits);
+      if (others == 0) return takeRun(status, from, to);
+      const std::size_t same = __builtin_ctzll(others) / 8U;
+      const std::size_t end = std::min(to, from + same);  // no cells follow: unknown ones seem to
+      if (!takeRun(status, from, end)) return false;
+      from = end;
+      cells >>= 8 * same;
     }
-    if (status == Occupancy::kOccupied) {
-      ++gain_.occupied_voxels;
-      return false;
-    }
-    limit_ = std::min(limit_, cone_.lengths[k] + cone_.depth);
-    if (cone_.lengths[k] >= limit_) return false;
-    ++gain_.unknown_voxels;
-    gain_.unknown_m3 +=
-        static_cast<double>(cone_.volumes[k + 1]) - static_cast<double>(cone_.volumes[k]);
     return true;
   }
 
-  const Cone& cone_;
-  VolumetricGain& gain_;
+  /// Takes steps `from` up to `to`, all of them of one status.
+  bool takeRun(Occupancy status, std::size_t from, std::size_t to) {
+    if (status == Occupancy::kUnknown) return takeUnknown(from, to);
+    if (status == Occupancy::kFree) tally_.gain.free_voxels += static_cast<int>(to - from);
+    if (status == Occupancy::kOccupied) ++tally_.gain.occupied_voxels;
+    return status == Occupancy::kFree;
+  }
+
+  Cone cone_;
+  Tally& tally_;
   float limit_ = std::numeric_limits<float>::infinity();  ///< Once unknown space is entered.
 };
+
+/// The rays of one sensor from one place of a window.
+struct Fan {
+  const TemplateRays& rays;
+  TemplateRays::Heading heading;
+  TemplateRays::Range reachable;
+  TemplateRays::Range known;  ///< The part of `reachable` that may hold anything but unknown.
+  const std::uint8_t* start;  ///< Cell of the place.
+  const std::int32_t* offsets;
+
+  /// Calls `count` with each ray and where its cells lie from the start.
+  template <class Count>
+  void forEachRay(const Count& count) const {
+    std::size_t number = heading.first;
+    for (std::size_t i = 0; i < heading.count; ++i) {
+      const TemplateRays::Ray& ray = rays.rays()[number];
+      if (++number == rays.rays().size()) number = 0;
+      count(ray, offsets + ray.begin);
+    }
+  }
+};
+
+void countRays(const Fan& fan, VolumetricGain& gain) {
+  fan.forEachRay([&](const TemplateRays::Ray& ray, const std::int32_t* cells) {
+    const std::size_t known = fan.rays.stepsInside(ray, fan.known);
+    if (countRay(fan.start, cells, known, gain))
+      gain.unknown_voxels += static_cast<int>(fan.rays.stepsInside(ray, fan.reachable) - known);
+  });
+}
+
+void countCones(const Fan& fan, float depth_voxels, Tally& tally) {
+  fan.forEachRay([&](const TemplateRays::Ray& ray, const std::int32_t* cells) {
+    ConeCount cone({fan.rays.coneVolumes().data() + ray.cone,
+                    fan.rays.coneLengths().data() + ray.cone, depth_voxels},
+                   tally);
+    const std::size_t known = fan.rays.stepsInside(ray, fan.known);
+    if (cone.takeSteps(fan.start, cells, known))
+      cone.takeUnknown(known, fan.rays.stepsInside(ray, fan.reachable));
+  });
+}
 
 }  // namespace
 
@@ -163,7 +243,7 @@ struct GainEvaluator::Impl {
   [[nodiscard]] std::shared_ptr<const CellOffsets> offsetsFor(const VoxelIndex& window_size);
   void countSensor(std::size_t sensor, const LocalWindow& window, const VoxelIndex& start,
                    double yaw, const AxisAlignedBox& bounds, const CellOffsets& offsets,
-                   SeenCells* seen, VolumetricGain& gain) const;
+                   SeenCells* seen, Tally& tally) const;
 
   double resolution_m = 0.2;
   double reach_m = 0.0;
@@ -193,39 +273,27 @@ std::shared_ptr<const CellOffsets> GainEvaluator::Impl::offsetsFor(const VoxelIn
 void GainEvaluator::Impl::countSensor(std::size_t sensor, const LocalWindow& window,
                                       const VoxelIndex& start, double yaw,
                                       const AxisAlignedBox& bounds, const CellOffsets& offsets,
-                                      SeenCells* seen, VolumetricGain& gain) const {
+                                      SeenCells* seen, Tally& tally) const {
   const TemplateRays::Range reachable = reachableFrom(start, window, bounds);
   if (!reachable.contains(VoxelIndex::Zero())) return;
   const TemplateRays::Range known = knownFrom(start, window, reachable);
   const TemplateRays& rays = sensors[sensor];
-  const TemplateRays::Heading heading = rays.headingAt(yaw);
   const std::size_t start_cell = window.offsetOf(start - window.origin());
-  const std::uint8_t* start_cells = window.cells() + start_cell;
   if (layers[sensor])
     return countLayersOnce(*layers[sensor], offsets.layers[sensor], reachable, window.cells(),
-                           start_cell, seen, gain);
-  std::size_t number = heading.first;
-  for (std::size_t i = 0; i < heading.count; ++i) {
-    const TemplateRays::Ray& ray = rays.rays()[number];
-    if (++number == rays.rays().size()) number = 0;
-    const std::int32_t* cells = offsets.sensors[sensor].data() + ray.begin;
-    const std::size_t count = rays.stepsInside(ray, reachable);
-    if (seen != nullptr) {
-      countRayOnce(window.cells(), start_cell, cells, count, *seen, gain);
-      continue;
-    }
-    const std::size_t known_count = rays.stepsInside(ray, known);
-    if (counting == GainCounting::kCone) {
-      const Cone cone{rays.coneVolumes().data() + ray.cone, rays.coneLengths().data() + ray.cone,
-                      depth_voxels};
-      ConeCount counted(cone, gain);
-      if (counted.takeSteps(start_cells, cells, known_count))
-        counted.takeUnknown(known_count, count);
-      continue;
-    }
-    if (countRay(start_cells, cells, known_count, gain))
-      gain.unknown_voxels += static_cast<int>(count - known_count);
-  }
+                           start_cell, seen, tally.gain);
+  const Fan fan{rays,
+                rays.headingAt(yaw),
+                reachable,
+                knownFrom(start, window, reachable),
+                window.cells() + start_cell,
+                offsets.sensors[sensor].data()};
+  if (counting == GainCounting::kCone) return countCones(fan, depth_voxels, tally);
+  if (seen == nullptr) return countRays(fan, tally.gain);
+  fan.forEachRay([&](const TemplateRays::Ray& ray, const std::int32_t* cells) {
+    countRayOnce(window.cells(), start_cell, cells, rays.stepsInside(ray, reachable), *seen,
+                 tally.gain);
+  });
 }
 
 GainEvaluator::GainEvaluator(const std::vector<SensorModel>& sensors, double resolution_m,
@@ -253,7 +321,7 @@ VolumetricGain GainEvaluator::evaluate(const LocalWindow& window, const Eigen::V
   require(position.allFinite() && std::isfinite(yaw), "GainEvaluator: pose is not finite");
   require(std::fabs(window.resolution() - impl_->resolution_m) < 1e-9,
           "GainEvaluator: window of another resolution");
-  VolumetricGain gain;
+  Tally tally;
   const auto offsets = impl_->offsetsFor(window.size());
   const bool is_only_layers = impl_->sensors.size() == 1 && impl_->layers.front();
   // The layers of one sensor hold each voxel once: nothing needs to be remembered.
@@ -263,11 +331,12 @@ VolumetricGain GainEvaluator::evaluate(const LocalWindow& window, const Eigen::V
   for (std::size_t i = 0; i < impl_->sensors.size(); ++i) {
     const Eigen::Vector3d origin = position + R_world_base * impl_->sensors[i].mount();
     impl_->countSensor(i, window, window.indexOf(origin), yaw, bounds, *offsets,
-                       remembers ? &seen : nullptr, gain);
+                       remembers ? &seen : nullptr, tally);
   }
-  if (impl_->counting != GainCounting::kCone) gain.unknown_m3 = gain.unknown_voxels;
-  gain.unknown_m3 *= std::pow(impl_->resolution_m, 3);
-  return gain;
+  const bool counts_cones = impl_->counting == GainCounting::kCone;
+  tally.gain.unknown_m3 = counts_cones ? tally.cones.value() : tally.gain.unknown_voxels;
+  tally.gain.unknown_m3 *= std::pow(impl_->resolution_m, 3);
+  return tally.gain;
 }
 
 double GainEvaluator::reach() const { return impl_->reach_m; }
