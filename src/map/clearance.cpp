@@ -21,18 +21,18 @@ class SquaredDistances {
         reach_(reach),
         far_(static_cast<Cell>((reach + 1) * (reach + 1))),
         cells_(window.cellCount()) {
-    alongX(window);
-    const auto row = static_cast<std::size_t>(size_.x());
-    const std::size_t plane = row * static_cast<std::size_t>(size_.y());
-    for (std::size_t z = 0; z < static_cast<std::size_t>(size_.z()); ++z)
-      alongLines(z * plane, row, size_.y(), row);
-    alongLines(0, plane, size_.z(), plane);
+    alongZ(window);
+    const auto column = static_cast<std::size_t>(size_.z());
+    const std::size_t plane = column * static_cast<std::size_t>(size_.x());
+    for (std::size_t y = 0; y < static_cast<std::size_t>(size_.y()); ++y)
+      alongLines(y * plane, column, size_.x(), column);
+    alongLines(0, plane, size_.y(), plane);
   }
   [[nodiscard]] const std::vector<Cell>& cells() const { return cells_; }
 
  private:
-  void alongX(const LocalWindow& window) {
-    const std::ptrdiff_t length = size_.x();
+  void alongZ(const LocalWindow& window) {
+    const std::ptrdiff_t length = size_.z();
     for (std::size_t start = 0; start < cells_.size(); start += static_cast<std::size_t>(length)) {
       const std::uint8_t* from = window.cells() + start;
       Cell* to = cells_.data() + start;
@@ -40,15 +40,15 @@ class SquaredDistances {
         return steps > reach_ ? far_ : static_cast<Cell>(steps * steps);
       };
       int steps = reach_ + 1;
-      const auto pass = [&](std::ptrdiff_t x) {
-        steps = from[x] == static_cast<std::uint8_t>(Occupancy::kOccupied)
+      const auto pass = [&](std::ptrdiff_t z) {
+        steps = from[z] == static_cast<std::uint8_t>(Occupancy::kOccupied)
                     ? 0
                     : std::min(steps + 1, reach_ + 1);
         return squared(steps);
       };
-      for (std::ptrdiff_t x = 0; x < length; ++x) to[x] = pass(x);
+      for (std::ptrdiff_t z = 0; z < length; ++z) to[z] = pass(z);
       steps = reach_ + 1;
-      for (std::ptrdiff_t x = length - 1; x >= 0; --x) to[x] = std::min(to[x], pass(x));
+      for (std::ptrdiff_t z = length - 1; z >= 0; --z) to[z] = std::min(to[z], pass(z));
     }
   }
 
@@ -110,11 +110,11 @@ ClearanceField::ClearanceField(const LocalWindow& window, double limit_m)
 double ClearanceField::at(const Eigen::Vector3d& point) const {
   const VoxelIndex local = voxelOf(point, 1.0 / resolution_m_) - origin_;
   if ((local.array() < 0).any() || (local.array() >= size_.array()).any()) return limit_m_;
-  const auto row = static_cast<std::size_t>(size_.x());
-  return distance_m_[static_cast<std::size_t>(local.x()) +
-                     row * (static_cast<std::size_t>(local.y()) +
-                            static_cast<std::size_t>(size_.y()) *
-                                static_cast<std::size_t>(local.z()))];
+  const auto column = static_cast<std::size_t>(size_.z());
+  return distance_m_[static_cast<std::size_t>(local.z()) +
+                     column * (static_cast<std::size_t>(local.x()) +
+                               static_cast<std::size_t>(size_.x()) *
+                                   static_cast<std::size_t>(local.y()))];
 }
 
 }  // namespace spelunk::map

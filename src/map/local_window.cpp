@@ -22,6 +22,25 @@ constexpr std::array<std::uint64_t, 256> spreadTable() {
 }
 constexpr std::array<std::uint64_t, 256> kSpread = spreadTable();
 
+/// Bit `x` of byte `z` becomes bit `z` of byte `x`.
+std::uint64_t transposed(std::uint64_t bits) {
+  const auto swap = [&bits](int distance, std::uint64_t low) {
+    const std::uint64_t differing = (bits ^ (bits >> distance)) & low;
+    bits ^= differing ^ (differing << distance);
+  };
+  swap(7, 0x00AA00AA00AA00AAu);
+  swap(14, 0x0000CCCC0000CCCCu);
+  swap(28, 0x00000000F0F0F0F0u);
+  return bits;
+}
+
+/// The columns along z over row `y` of a block: a byte each.
+std::uint64_t columnsOf(const Mask& mask, int y) {
+  std::uint64_t rows = 0;
+  for (unsigned z = 0; z < kBlockSide; ++z) rows |= ((mask[z] >> (8 * y)) & 0xFF) << (8 * z);
+  return transposed(rows);
+}
+
 /// What the cells held before a copy.
 enum class Cells { kUnknown, kOutdated };
 
@@ -41,13 +60,14 @@ class BlockCopier {
     const VoxelIndex at = corner - origin_;
     const VoxelIndex first = (-at).cwiseMax(0);
     const VoxelIndex end = (size_ - at).cwiseMin(kBlockSide);
-    for (int z = first.z(); z < end.z(); ++z) {
-      const std::uint64_t known = block.known[static_cast<std::size_t>(z)];
-      const std::uint64_t occupied = block.occupied[static_cast<std::size_t>(z)];
+    for (int y = first.y(); y < end.y(); ++y) {
+      const std::uint64_t known = columnsOf(block.known, y);
+      const std::uint64_t occupied = columnsOf(block.occupied, y);
       if (known == 0 && before_ == Cells::kUnknown) continue;
-      for (int y = first.y(); y < end.y(); ++y) {
-        const std::size_t cell = offsetOf(at.x() + first.x(), at.y() + y, at.z() + z);
-        copyRow((known >> (8 * y)) & 0xFF, (occupied >> (8 * y)) & 0xFF, first.x(), end.x(), cell);
+      for (int x = first.x(); x < end.x(); ++x) {
+        const std::size_t cell = offsetOf(at.x() + x, at.y() + y, at.z() + first.z());
+        copyColumn((known >> (8 * x)) & 0xFF, (occupied >> (8 * x)) & 0xFF, first.z(), end.z(),
+                   cell);
       }
     }
   }
@@ -56,21 +76,22 @@ class BlockCopier {
   [[nodiscard]] const Extent& known() const { return known_; }
 
  private:
-  /// Voxels first..end-1 of a row of eight, to `cell` and on.
-  void copyRow(std::uint64_t known, std::uint64_t occupied, int first, int end, std::size_t cell) {
-    const std::uint64_t row = kSpread[known] + kSpread[occupied];
+  /// Voxels first..end-1 of a column of eight, to `cell` and on.
+  void copyColumn(std::uint64_t known, std::uint64_t occupied, int first, int end,
+                  std::size_t cell) {
+    const std::uint64_t column = kSpread[known] + kSpread[occupied];
     std::uint8_t bytes[kBlockSide];
-    std::memcpy(bytes, &row, sizeof(bytes));
+    std::memcpy(bytes, &column, sizeof(bytes));
     if (end - first == kBlockSide)
       std::memcpy(cells_ + cell, bytes, kBlockSide);
     else
       std::copy(bytes + first, bytes + end, cells_ + cell);
   }
   [[nodiscard]] std::size_t offsetOf(int x, int y, int z) const {
-    return static_cast<std::size_t>(x) +
-           static_cast<std::size_t>(size_.x()) *
-               (static_cast<std::size_t>(y) +
-                static_cast<std::size_t>(size_.y()) * static_cast<std::size_t>(z));
+    return static_cast<std::size_t>(z) +
+           static_cast<std::size_t>(size_.z()) *
+               (static_cast<std::size_t>(x) +
+                static_cast<std::size_t>(size_.x()) * static_cast<std::size_t>(y));
   }
 
   VoxelIndex origin_;
@@ -128,8 +149,8 @@ LocalWindow::LocalWindow(const FrozenMap& map, const AxisAlignedBox& region)
   const Eigen::Vector3d size = last.cast<double>().array() - origin_.cast<double>().array() + 1.0;
   require(size.prod() < 2147483648.0, "LocalWindow: region has more than 2^31 voxels");
   size_ = last - origin_ + VoxelIndex::Ones();
-  row_cells_ = static_cast<std::size_t>(size_.x());
-  plane_cells_ = row_cells_ * static_cast<std::size_t>(size_.y());
+  column_cells_ = static_cast<std::size_t>(size_.z());
+  plane_cells_ = column_cells_ * static_cast<std::size_t>(size_.x());
   cell_count_ = static_cast<std::size_t>(size.prod());
   cells_.reset(static_cast<std::uint8_t*>(std::calloc(cell_count_, 1)));
   if (cells_ == nullptr) throw std::bad_alloc();

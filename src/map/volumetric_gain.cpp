@@ -24,12 +24,12 @@ struct CellOffsets {
 
 std::vector<std::int32_t> offsetsOf(const std::vector<TemplateRays::Step>& steps,
                                     const VoxelIndex& window_size) {
-  const std::int64_t row = window_size.x();
-  const std::int64_t plane = row * window_size.y();
+  const std::int64_t column = window_size.z();
+  const std::int64_t plane = column * window_size.x();
   std::vector<std::int32_t> offsets;
   offsets.reserve(steps.size());
   for (const TemplateRays::Step& step : steps)
-    offsets.push_back(static_cast<std::int32_t>(step[0] + row * step[1] + plane * step[2]));
+    offsets.push_back(static_cast<std::int32_t>(step[2] + column * step[0] + plane * step[1]));
   return offsets;
 }
 
@@ -257,8 +257,7 @@ struct GainEvaluator::Impl {
 
 std::shared_ptr<const CellOffsets> GainEvaluator::Impl::offsetsFor(const VoxelIndex& window_size) {
   const std::lock_guard lock(mutex);
-  if (last_offsets != nullptr && last_offsets->window_size.head<2>() == window_size.head<2>())
-    return last_offsets;
+  if (last_offsets != nullptr && last_offsets->window_size == window_size) return last_offsets;
   auto offsets = std::make_shared<CellOffsets>();
   offsets->window_size = window_size;
   for (const TemplateRays& sensor : sensors)
@@ -276,7 +275,6 @@ void GainEvaluator::Impl::countSensor(std::size_t sensor, const LocalWindow& win
                                       SeenCells* seen, Tally& tally) const {
   const TemplateRays::Range reachable = reachableFrom(start, window, bounds);
   if (!reachable.contains(VoxelIndex::Zero())) return;
-  const TemplateRays::Range known = knownFrom(start, window, reachable);
   const TemplateRays& rays = sensors[sensor];
   const std::size_t start_cell = window.offsetOf(start - window.origin());
   if (layers[sensor])
