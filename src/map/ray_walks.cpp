@@ -4,6 +4,7 @@
 
 #include "ray_grid.h"
 #include "spelunk/common/contract.h"
+#include "spelunk/common/wide_loops.h"
 #include "wide_walks.h"
 
 namespace spelunk::map {
@@ -48,6 +49,24 @@ void walkThroughAll(const RayWalks& walks, const RayGrid& grid, WalkLanes lanes,
     walkThrough(walks.at(i), walks.start, grid, words);
 }
 
+/// Eight blocks beside each other along x, by layer and block.
+struct EightBlocks {
+  alignas(64) std::uint64_t words[8][8];
+};
+
+/// Byte `k` of each row goes to block `k`.
+SPELUNK_WIDE_IF_POSSIBLE void split(const std::uint64_t* corner, std::size_t row_words,
+                                    std::size_t layer_words, EightBlocks& __restrict blocks) {
+  for (std::size_t z = 0; z < 8; ++z) {
+    std::uint64_t layer[8] = {};
+    for (unsigned y = 0; y < 8; ++y) {
+      const std::uint64_t row = corner[z * layer_words + y * row_words];
+      for (unsigned k = 0; k < 8; ++k) layer[k] |= ((row >> (8 * k)) & 0xFF) << (8 * y);
+    }
+    for (unsigned k = 0; k < 8; ++k) blocks.words[z][k] = layer[k];
+  }
+}
+
 /// The blocks of eight by eight rows, at a word of x each.
 void collectBlocks(const RayGrid& grid, const std::uint64_t* words, const VoxelIndex& block,
                    ScanMarks& marks) {
@@ -57,16 +76,15 @@ void collectBlocks(const RayGrid& grid, const std::uint64_t* words, const VoxelI
   std::uint64_t any = 0;
   for (std::size_t z = 0; z < 8; ++z)
     for (std::size_t y = 0; y < 8; ++y) any |= corner[z * grid.layer_words + y * grid.row_words];
+  if (any == 0) return;
+  EightBlocks blocks;
+  split(corner, grid.row_words, grid.layer_words, blocks);
   for (int x = 0; x < 8; ++x) {
     if (((any >> (8 * x)) & 0xFF) == 0) continue;
     const VoxelIndex first =
         grid.first + kBlockSide * VoxelIndex(8 * block.x() + x, block.y(), block.z());
     Mask& free = marks.block(marks.touch(packIndex(first))).free;
-    for (std::size_t z = 0; z < 8; ++z)
-      for (std::size_t y = 0; y < 8; ++y) {
-        const std::uint64_t row = corner[z * grid.layer_words + y * grid.row_words];
-        free[z] |= ((row >> (8 * x)) & 0xFF) << (8 * y);
-      }
+    for (std::size_t z = 0; z < 8; ++z) free[z] |= blocks.words[z][x];
   }
 }
 
