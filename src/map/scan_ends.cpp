@@ -10,6 +10,7 @@ namespace {
 
 constexpr std::size_t kBlock = 256;
 constexpr PackedKey kNoKey = ~PackedKey{0};
+constexpr double kFar = 1 << 30;  // voxels; beyond all keys
 
 /// One coordinate of points in the world: a row of the transform.
 struct Row {
@@ -39,7 +40,7 @@ SPELUNK_WIDE_IF_POSSIBLE void squareNorms(const float* from, std::size_t count,
   }
 }
 
-/// As voxelOf, for what has a key; anything for what has none.
+/// As voxelOf, for what has a key; any number for what has none.
 SPELUNK_WIDE_IF_POSSIBLE void findVoxels(const double* coordinates, std::size_t count,
                                          double inverse_resolution, float* __restrict points,
                                          std::int32_t* __restrict voxels) {
@@ -47,8 +48,9 @@ SPELUNK_WIDE_IF_POSSIBLE void findVoxels(const double* coordinates, std::size_t 
     const auto rounded = static_cast<float>(coordinates[i]);
     points[i] = rounded;
     const double scaled = static_cast<double>(rounded) * inverse_resolution;
-    const auto towards_zero = static_cast<std::int32_t>(scaled);
-    voxels[i] = towards_zero - (scaled < static_cast<double>(towards_zero) ? 1 : 0);
+    const double bounded = std::min(kFar, std::max(-kFar, scaled));  // what is no number: -kFar
+    const auto towards_zero = static_cast<std::int32_t>(bounded);
+    voxels[i] = towards_zero - (bounded < static_cast<double>(towards_zero) ? 1 : 0);
   }
 }
 
@@ -78,7 +80,7 @@ struct Block {
 
 /// Comparisons with what is not a number fail: it is not usable.
 SPELUNK_WIDE_IF_POSSIBLE void findKeys(const Frame& frame, std::size_t count,
-                                    Block& __restrict block) {
+                                       Block& __restrict block) {
   const double near_squared = frame.near_squared;
   const double limit = frame.limit;
   const double x_min = frame.body.min.x(), x_max = frame.body.max.x();
@@ -95,6 +97,18 @@ SPELUNK_WIDE_IF_POSSIBLE void findKeys(const Frame& frame, std::size_t count,
   }
 }
 
+Frame frameOf(const Scan& scan, const AxisAlignedBox& body, double range_min_m,
+              double resolution_m) {
+  const Eigen::Isometry3d& T = scan.T_world_sensor;
+  const double limit = keyLimit(resolution_m);
+  const bool has_key = (T.translation().array().abs() < limit).all();  // else no ray has one
+  return {{rowOf(T, 0), rowOf(T, 1), rowOf(T, 2)},
+          body,
+          range_min_m * range_min_m,
+          has_key ? limit : 0.0,
+          1.0 / resolution_m};
+}
+
 void fill(const Eigen::Vector3f* points, std::size_t count, const Frame& frame, Block& block) {
   const float* from = points->data();
   squareNorms(from, count, block.squared);
@@ -104,6 +118,11 @@ void fill(const Eigen::Vector3f* points, std::size_t count, const Frame& frame, 
                block.voxel[axis]);
   }
   findKeys(frame, count, block);
+}
+
+void add(const Block& block, std::size_t i, ScanEnds& ends) {
+  ends.set(ends.count++, {block.point[0][i], block.point[1][i], block.point[2][i]},
+           {block.voxel[0][i], block.voxel[1][i], block.voxel[2][i]});
 }
 
 /// Of a point that is not usable.
@@ -152,32 +171,21 @@ ScanPoints::ScanPoints(const MapParams& params)
 
 void ScanPoints::findEnds(const Scan& scan, const AxisAlignedBox& robot_body, ScanMarks& marks,
                           ScanEnds& ends, MapUpdate& update) const {
-  const double limit = keyLimit(resolution_m_);
-  const bool has_key = (scan.T_world_sensor.translation().array().abs() < limit).all();
-  Frame frame{{rowOf(scan.T_world_sensor, 0), rowOf(scan.T_world_sensor, 1),
-               rowOf(scan.T_world_sensor, 2)},
-              robot_body,
-              range_min_m_ * range_min_m_,
-              has_key ? limit : 0.0,
-              1.0 / resolution_m_};
+  const Frame frame = frameOf(scan, robot_body, range_min_m_, resolution_m_);
   ends.count = 0;
   ends.makeRoomFor(scan.points.size());
-  PackedKey last = 0;  // a corner that keyLimit keeps off
+  PackedKey last = kNoKey;  // neighbours in a scan often share a voxel
   Block block;
   for (std::size_t first = 0; first < scan.points.size(); first += kBlock) {
     const std::size_t count = std::min(kBlock, scan.points.size() - first);
     fill(scan.points.data() + first, count, frame, block);
     for (std::size_t i = 0; i < count; ++i) {
-      const PackedKey key = block.key[i];
-      if (key == last && discretize_) continue;
-      if (key == kNoKey) {
+      if (block.key[i] == kNoKey) {
         countDropped(block, i, frame, update);
-        continue;
+      } else if (block.key[i] != last || !discretize_) {
+        last = block.key[i];
+        if (marks.markHit(last) || !discretize_) add(block, i, ends);
       }
-      last = key;
-      if (!marks.markHit(key) && discretize_) continue;
-      ends.set(ends.count++, {block.point[0][i], block.point[1][i], block.point[2][i]},
-               {block.voxel[0][i], block.voxel[1][i], block.voxel[2][i]});
     }
   }
   if (!discretize_) return;

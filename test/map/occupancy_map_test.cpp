@@ -75,6 +75,22 @@ TEST(OccupancyMap, LongReturnsOnlyFreeTheirRayUpToTheRange) {
   EXPECT_EQ(update.dropped_far, 1) << "10 km is beyond what a key can hold";
 }
 
+TEST(OccupancyMap, PointBeyondTheRangeDoesNotWipeAHitInItsVoxel) {
+  MapParams params;
+  params.range_max_m = 5.0;
+  params.discretize = false;
+  const Eigen::Vector3f within(4.95F, 0.0F, 0.0F);
+  const Eigen::Vector3f beyond(5.05F, 0.0F, 0.0F);
+  for (const auto& points : {std::vector{within, beyond}, std::vector{beyond, within}}) {
+    OccupancyMap map(params);
+    map.insert(scanOf({0.1, 0.1, 0.1}, points), noBody());
+    EXPECT_EQ(map.at({5.1, 0.1, 0.1}), Occupancy::kOccupied);
+  }
+  OccupancyMap map(params);
+  map.insert(scanOf({0.1, 0.1, 0.1}, {beyond}), noBody());
+  EXPECT_NE(map.at({5.1, 0.1, 0.1}), Occupancy::kOccupied);
+}
+
 TEST(OccupancyMap, OddPointsAreDroppedAndCounted) {
   for (const bool discretize : {false, true}) {
     MapParams params;
