@@ -135,18 +135,22 @@ void ElevationMap::lowerBounds(const Eigen::Vector3f& sensor) {
   const auto cell_m = static_cast<float>(params_.cell_m);
   const RayFan& rays = scan_cells_->rays();
   const auto side = static_cast<std::size_t>(grid_.side());
+  const Eigen::Vector2f first = Eigen::Vector2f::Constant(0.5F * cell_m) - sensor.head<2>();
+  const RayFan::Places places{first, cell_m, grid_.side()};
+  const std::vector<RayFan::Range> reach = rays.reachOf(places);
   RayFan::Row row{std::vector<float>(side), std::vector<std::uint32_t>(side)};
   std::vector<std::uint32_t> unknown(side);
   for (int y = 0; y < grid_.side(); ++y) {
+    const RayFan::Range& range = reach[static_cast<std::size_t>(y)];
     std::size_t count = 0;
-    for (std::size_t x = 0; x < side; ++x) {  // without a branch: unknown cells lie scattered
+    // Without a branch: unknown cells lie scattered.
+    for (int x = range.begin; x < range.end; ++x) {
       unknown[count] = static_cast<std::uint32_t>(x);
-      const int column = grid_.first().x() + static_cast<int>(x);
-      count += std::isnan(height_[grid_.slotOf(column, grid_.first().y() + y)]) ? 1 : 0;
+      const CellIndex cell = grid_.first() + CellIndex(x, y);
+      count += std::isnan(height_[grid_.slotOf(cell)]) ? 1 : 0;
     }
     if (count == 0) continue;
-    rays.locate(0.5F * cell_m - sensor.x(), cell_m,
-                (static_cast<float>(y) + 0.5F) * cell_m - sensor.y(), row);
+    rays.locate(places, (static_cast<float>(y) + 0.5F) * cell_m - sensor.y(), range, row);
     for (std::size_t i = 0; i < count; ++i) {
       const std::size_t x = unknown[i];
       const CellIndex cell = grid_.first() + CellIndex(static_cast<int>(x), y);

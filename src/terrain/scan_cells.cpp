@@ -37,8 +37,6 @@ struct ScanCells::Block {
   alignas(64) std::int32_t cell[kBlock];  ///< By y * side + x; means nothing outside the window.
 };
 
-/// Plain loops, so that the compiler makes wide ones of them where the machine has them; the
-/// results are the same.
 SPELUNK_WIDE_IF_POSSIBLE void ScanCells::fill(const Eigen::Vector3f* points, std::size_t count,
                                               const WindowFrame& frame, Block& block) const {
   const float r00 = frame.R_window_sensor(0, 0), r01 = frame.R_window_sensor(0, 1);
