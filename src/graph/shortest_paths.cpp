@@ -3,7 +3,10 @@
 #include <algorithm>
 #include <boost/graph/dijkstra_shortest_paths.hpp>
 #include <cmath>
+#include <functional>
 #include <limits>
+#include <queue>
+#include <utility>
 
 #include "boost_view.h"
 #include "spelunk/common/contract.h"
@@ -17,6 +20,35 @@ std::vector<VertexId> ShortestPaths::pathTo(VertexId id) const {
   while (path.back() != source_) path.push_back(predecessorOf(path.back()));
   std::reverse(path.begin(), path.end());
   return path;
+}
+
+void ShortestPaths::takeVertices(const SpatialGraph& graph) {
+  distances_.resize(graph.vertexCount(), std::numeric_limits<double>::infinity());
+  for (std::size_t i = predecessors_.size(); i < graph.vertexCount(); ++i)
+    predecessors_.push_back(VertexId{static_cast<std::uint32_t>(i)});
+}
+
+bool ShortestPaths::takeStep(VertexId from, VertexId to, double weight) {
+  const double distance = distanceTo(from) + weight;
+  if (!(distance < distanceTo(to))) return false;
+  distances_[indexOf(to)] = distance;
+  predecessors_[indexOf(to)] = from;
+  return true;
+}
+
+void ShortestPaths::takeEdge(const SpatialGraph& graph, VertexId a, VertexId b) {
+  takeVertices(graph);
+  using Entry = std::pair<double, VertexId>;
+  std::priority_queue<Entry, std::vector<Entry>, std::greater<>> open;
+  open.emplace(distanceTo(a), a);
+  open.emplace(distanceTo(b), b);
+  while (!open.empty()) {
+    const auto [distance, from] = open.top();
+    open.pop();
+    if (distance > distanceTo(from)) continue;  // a shorter way to it was found since
+    for (const Neighbour& n : graph.neighbours(from))
+      if (takeStep(from, n.id, n.weight)) open.emplace(distanceTo(n.id), n.id);
+  }
 }
 
 ShortestPaths shortestPaths(const SpatialGraph& graph, VertexId source) {

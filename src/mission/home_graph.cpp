@@ -30,13 +30,9 @@ HomeGraph::HomeGraph(const Pose& home, const Eigen::Vector3d& box, double resolu
       swept_(box, resolution_m),
       swept_tight_(tightBox(box), resolution_m) {
   trail_.push_back(home);
-  last_trail_vertex_ = addVertex(home.position);
+  last_trail_vertex_ = graph_.addVertex(home.position);
 }
 
-graph::VertexId HomeGraph::addVertex(const Eigen::Vector3d& position) {
-  from_home_.reset();
-  return graph_.addVertex(position);
-}
 
 void HomeGraph::addEdge(graph::VertexId a, graph::VertexId b, Origin origin) {
   if (a == b || graph_.hasEdge(a, b)) return;
@@ -48,13 +44,13 @@ void HomeGraph::addEdge(graph::VertexId a, graph::VertexId b, Origin origin) {
   graph_.addEdge(a, b, (to - from).norm());
   swept_.add(from, to, id);
   swept_tight_.add(from, to, id);
-  from_home_.reset();
+  if (from_home_) from_home_->takeEdge(graph_, a, b);
 }
 
 void HomeGraph::addTrail(const Pose& pose) {
   if (distance(pose, trail_.back()) < kTrailSpacing_m) return;
   trail_.push_back(pose);
-  const graph::VertexId id = addVertex(pose.position);
+  const graph::VertexId id = graph_.addVertex(pose.position);
   addEdge(last_trail_vertex_, id, Origin::kFlown);
   last_trail_vertex_ = id;
 }
@@ -65,7 +61,7 @@ void HomeGraph::addRoute(const Path& route) {
   for (const Pose& pose : resampled(route, kRouteSpacing_m)) {
     const auto near = graph_.findNearest(pose.position);
     const bool joins = near && (graph_.position(*near) - pose.position).norm() < 0.1;
-    const graph::VertexId id = joins ? *near : addVertex(pose.position);
+    const graph::VertexId id = joins ? *near : graph_.addVertex(pose.position);
     if (last) addEdge(*last, id, Origin::kChecked);
     last = id;
   }
@@ -164,6 +160,7 @@ void HomeGraph::tryShortcuts(graph::VertexId id, const map::FrozenMap& map) {
 
 const graph::ShortestPaths& HomeGraph::fromHome() {
   if (!from_home_) from_home_ = graph::shortestPaths(graph_, graph::VertexId{0});
+  from_home_->takeVertices(graph_);
   return *from_home_;
 }
 

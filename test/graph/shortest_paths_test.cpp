@@ -74,6 +74,29 @@ TEST(ShortestPaths, GiveAPathWhoseEdgesExistAndAddUp) {
   }
 }
 
+TEST(ShortestPaths, GrowWithTheGraph) {
+  Rng rng(31);
+  for (int round = 0; round < 20; ++round) {
+    SpatialGraph graph = randomGraph(rng, 30, 20);
+    ShortestPaths grown = shortestPaths(graph, vertex(0));
+    for (int step = 0; step < 40; ++step) {
+      if (step % 4 == 0) graph.addVertex({rng.uniform(), rng.uniform(), 1.0});
+      const auto count = static_cast<int>(graph.vertexCount());
+      const VertexId a = vertex(static_cast<std::size_t>(rng.below(count)));
+      const VertexId b = vertex(static_cast<std::size_t>(rng.below(count)));
+      if (a == b || graph.hasEdge(a, b)) continue;
+      graph.addEdge(a, b, rng.uniform(0.1, 5.0));
+      grown.takeEdge(graph, a, b);
+    }
+    grown.takeVertices(graph);
+    const ShortestPaths anew = shortestPaths(graph, vertex(0));
+    for (std::size_t i = 0; i < graph.vertexCount(); ++i) {
+      ASSERT_EQ(grown.distanceTo(vertex(i)), anew.distanceTo(vertex(i))) << "vertex " << i;
+      ASSERT_EQ(grown.pathTo(vertex(i)), anew.pathTo(vertex(i)));  // no two are equally long
+    }
+  }
+}
+
 TEST(ShortestPaths, KnowThatSomeVerticesAreNotReached) {
   SpatialGraph graph;
   const VertexId alone = graph.addVertex({0.0, 0.0, 0.0});

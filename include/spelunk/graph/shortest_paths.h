@@ -21,7 +21,16 @@ class ShortestPaths {
   /// From the source to `id`, both included; empty if it is not reached.
   [[nodiscard]] std::vector<VertexId> pathTo(VertexId id) const;
 
+  /// Takes up vertices that joined `graph` since; none of them is reached yet.
+  void takeVertices(const SpatialGraph& graph);
+  /// Takes up those and the edge between `a` and `b`, which is new or has become shorter. Costs as
+  /// much as there are distances that change.
+  void takeEdge(const SpatialGraph& graph, VertexId a, VertexId b);
+
  private:
+  /// Whether the way to `to` by its neighbour `from` is shorter than the one known; takes it then.
+  bool takeStep(VertexId from, VertexId to, double weight);
+
   VertexId source_;
   std::vector<double> distances_;
   std::vector<VertexId> predecessors_;

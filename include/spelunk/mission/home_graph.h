@@ -74,7 +74,6 @@ class HomeGraph {
   };
   enum class Origin { kFlown, kChecked };
 
-  graph::VertexId addVertex(const Eigen::Vector3d& position);
   void addEdge(graph::VertexId a, graph::VertexId b, Origin origin);
   void setState(Edge& edge, EdgeState state);
   void use(const std::shared_ptr<const map::FrozenMap>& map);
