@@ -11,16 +11,16 @@ constexpr double kMeanPowerWindow = 30.0;  ///< Seconds.
 }  // namespace
 
 PowerModel flightPower(const SimParams& params) {
-  return {params.hover_power_w, 0.0, params.motion_power_w_per_mps2, 0.7};
+  return {params.hover_power_w, 0.0, params.motion_power_w_per_mps2};
 }
 
 PowerModel walkingPower(const WalkerParams& params) {
-  return {params.standing_power_w, params.walking_power_w_per_mps, 0.0, 1.0};
+  return {params.standing_power_w, params.walking_power_w_per_mps, 0.0};
 }
 
 Battery::Battery(const PowerModel& power, double capacity_wh, const RobotModel& robot)
     : model_(power), power_w_(power.rest_w) {
-  mean_power_w_ = powerAt(model_.typical_speed_share * robot.speed_max_mps);
+  mean_power_w_ = powerAt(robot.speed_max_mps);
   capacity_j_ =
       capacity_wh > 0.0 ? capacity_wh * kJoulesPerWattHour : robot.endurance_s * mean_power_w_;
   energy_j_ = capacity_j_;

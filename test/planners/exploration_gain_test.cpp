@@ -58,6 +58,13 @@ TEST(GlobalExplorationGain, FavoursNearFrontiersAndRefusesThoseOutOfBudget) {
   EXPECT_DOUBLE_EQ(globalExplorationGain(-1.0, 30.0, 10.0, 0.05), 0.0);
 }
 
+TEST(BelievedGain, IsLessThanInProportionBelowTheThreshold) {
+  EXPECT_DOUBLE_EQ(believedGain(900.0, 800.0), 900.0);
+  EXPECT_DOUBLE_EQ(believedGain(800.0, 800.0), 800.0);
+  EXPECT_DOUBLE_EQ(believedGain(200.0, 800.0), 50.0);
+  EXPECT_DOUBLE_EQ(believedGain(5.0, 0.0), 5.0);
+}
+
 class AMovingRobot : public ::testing::Test {
  protected:
   PlanRequest request_;

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "spelunk/common/contract.h"
 #include "spelunk/planners/gbplanner/global_search.h"
 
@@ -158,7 +160,16 @@ TEST_F(TwoFrontiers, PrefersTheNearOne) {
   EXPECT_TRUE(plan().target->isApprox(Eigen::Vector3d(10, 0, 1)));
 }
 
+TEST_F(TwoFrontiers, BelievesASmallGainLessThanInProportion) {
+  params_.global_distance_weight = 0.02;
+  EXPECT_GT(40.0 * std::exp(0.02 * 20.0), 50.0) << "by gains alone the near one would be better";
+  EXPECT_TRUE(plan().target->isApprox(Eigen::Vector3d(-30, 0, 1)));
+  params_.gain_threshold_m3 = 40.0;
+  EXPECT_TRUE(plan().target->isApprox(Eigen::Vector3d(10, 0, 1)));
+}
+
 TEST_F(TwoFrontiers, DropsTheNearOneWhenItsGainIsGone) {
+  params_.global_distance_weight = 0.03;
   near_gain_ = 1.0;
   EXPECT_TRUE(plan().target->isApprox(Eigen::Vector3d(-30, 0, 1)));
   EXPECT_EQ(global_.frontiers().size(), 1U);

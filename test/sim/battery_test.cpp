@@ -13,15 +13,14 @@ TEST(Battery, FullOneLastsTheRobotsEndurance) {
   EXPECT_EQ(battery.state().fraction, 1.0);
 }
 
-TEST(Battery, TypicalFlightLastsTheRobotsEndurance) {
+TEST(Battery, CruisingLastsTheRobotsEndurance) {
   RobotModel robot;
   robot.endurance_s = 600.0;
   Battery battery(flightPower({}), 0.0, robot);
-  const double typical_speed = 0.7 * robot.speed_max_mps;
-  for (int k = 0; k < 5990; ++k) battery.draw(0.1, typical_speed);
+  for (int k = 0; k < 5990; ++k) battery.draw(0.1, robot.speed_max_mps);
   EXPECT_FALSE(battery.isEmpty());
   EXPECT_NEAR(battery.state().remaining_s, 1.0, 1e-6);
-  for (int k = 0; k < 11; ++k) battery.draw(0.1, typical_speed);
+  for (int k = 0; k < 11; ++k) battery.draw(0.1, robot.speed_max_mps);
   EXPECT_TRUE(battery.isEmpty());
   EXPECT_EQ(battery.state().energy_wh, 0.0);
   EXPECT_EQ(battery.state().remaining_s, 0.0);

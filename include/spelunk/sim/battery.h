@@ -8,22 +8,20 @@ namespace spelunk::sim {
 /// What a robot draws: at rest, and more with its speed.
 struct PowerModel {
   double rest_w = 350.0;
-  double per_mps_w = 0.0;            ///< Times speed.
-  double per_mps2_w = 12.0;          ///< Times speed squared.
-  double typical_speed_share = 0.7;  ///< Of the cruising speed: what the endurance is meant for.
+  double per_mps_w = 0.0;    ///< Times speed.
+  double per_mps2_w = 12.0;  ///< Times speed squared.
 };
 
-/// The power of a flying robot: typical flight is at 0.7 of the cruising speed (r.m.s., stops
-/// included).
+/// The power of a flying robot.
 [[nodiscard]] PowerModel flightPower(const SimParams& params);
 
-/// The power of a walking robot: its endurance is meant at walking speed.
+/// The power of a walking robot.
 [[nodiscard]] PowerModel walkingPower(const WalkerParams& params);
 
 /// Energy of a robot.
 class Battery {
  public:
-  /// With `capacity_wh` 0, a capacity that lasts robot.endurance_s at the typical speed.
+  /// With `capacity_wh` 0, a capacity that lasts robot.endurance_s at robot.speed_max_mps.
   Battery(const PowerModel& power, double capacity_wh, const RobotModel& robot);
 
   /// Draws for `step_s` of motion at `speed_mps`.

@@ -30,7 +30,7 @@ struct SimParams {
   double drag_coefficient = 0.25;  ///< N s/m, linear.
   double hover_power_w = 350.0;
   double motion_power_w_per_mps2 = 12.0;  ///< Added times speed squared.
-  double battery_wh = 0.0;                ///< 0: what hovering for robot.endurance_s needs.
+  double battery_wh = 0.0;                ///< 0: what robot.endurance_s at cruising speed needs.
   double dust_returns = 0.0;              ///< Mean share of rays that end early in dust.
   double odometry_drift = 0.0;            ///< Metres of drift a metre flown (1 sigma).
   double odometry_noise_m = 0.0;          ///< White noise of the position (1 sigma).

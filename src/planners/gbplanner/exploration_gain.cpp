@@ -67,6 +67,10 @@ double explorationTime(double remaining_s, double eta_to_frontier_s, double eta_
   return remaining_s - (eta_to_frontier_s + eta_frontier_home_s);  // Eq. (3)
 }
 
+double believedGain(double gain_m3, double gain_threshold_m3) {
+  return gain_m3 < gain_threshold_m3 ? gain_m3 * gain_m3 / gain_threshold_m3 : gain_m3;
+}
+
 double globalExplorationGain(double exploration_time_s, double gain_m3, double distance_m,
                              double distance_weight) {
   if (exploration_time_s <= 0.0) return 0.0;

@@ -118,8 +118,8 @@ struct Search {
     const double back = std::min(from_home.distanceTo(frontier.vertex),
                                  leg.length_m + from_current.distanceTo(GlobalGraph::home()));
     const double time = explorationTime(query.remaining_s, eta(leg.length_m), eta(back));
-    return globalExplorationGain(time, frontier.gain_m3, leg.length_m,
-                                 params.global_distance_weight);
+    return globalExplorationGain(time, believedGain(frontier.gain_m3, params.gain_threshold_m3),
+                                 leg.length_m, params.global_distance_weight);
   }
   [[nodiscard]] double eta(double length_m) const {
     return estimatedTime(length_m, query.speed_mps, params.eta_factor);

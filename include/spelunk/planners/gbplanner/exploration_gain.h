@@ -40,6 +40,11 @@ enum class PathGainCounting {
 [[nodiscard]] double explorationTime(double remaining_s, double eta_to_frontier_s,
                                      double eta_frontier_home_s);
 
+/// The part of a frontier's gain that is worth going there for, m3: all of it from the gain of a
+/// worthy path on, less than in proportion below. Differs from the paper, which counts all: small
+/// gains are mostly slivers that are seen at once or never, while large ones open galleries.
+[[nodiscard]] double believedGain(double gain_m3, double gain_threshold_m3);
+
 /// Eq. (2): T * VolumetricGain * exp(-epsilon_D * D); 0 if T is not positive.
 [[nodiscard]] double globalExplorationGain(double exploration_time_s, double gain_m3,
                                            double distance_m, double distance_weight);

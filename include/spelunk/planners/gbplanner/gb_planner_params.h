@@ -41,7 +41,7 @@ struct GbPlannerParams {
   double global_distance_weight = 0.02;
   double global_radius_m = 4.0;
   double presumed_saving_m = 30.0;
-  double eta_factor = 1.1;
+  double eta_factor = 1.0;
   double tried_radius_m = 3.0;
   double visited_radius_m = 0.0;
   double shortcut_length_max_m = 12.0;
