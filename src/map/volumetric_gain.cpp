@@ -78,6 +78,17 @@ inline std::uint64_t gather(const std::uint8_t* start, const std::int32_t* offse
   return gathered;
 }
 
+/// Number of free cells before the first other one of `count`.
+std::size_t freeBefore(const std::uint8_t* start, const std::int32_t* offsets, std::size_t count) {
+  std::size_t i = 0;
+  for (; i + kGathered <= count; i += kGathered) {
+    const std::uint64_t others = gather(start, offsets + i, kGathered) ^ kFreeBits;
+    if (others != 0) return i + static_cast<std::size_t>(__builtin_ctzll(others)) / 8;
+  }
+  while (i < count && static_cast<Occupancy>(start[offsets[i]]) == Occupancy::kFree) ++i;
+  return i;
+}
+
 /// Adds the cells up to the first occupied one; whether there was none.
 bool countRay(const std::uint8_t* start, const std::int32_t* offsets, std::size_t count,
               VolumetricGain& gain) {
@@ -145,10 +156,11 @@ class ConeCount {
  public:
   ConeCount(const Cone& cone, Tally& tally) : cone_(cone), tally_(tally) {}
 
-  /// Takes `count` steps through a window; false if the ray ended.
-  bool takeSteps(const std::uint8_t* start, const std::int32_t* offsets, std::size_t count) {
-    for (std::size_t i = 0; i < count; i += kGathered) {
-      const std::size_t cells = std::min(kGathered, count - i);
+  /// Takes steps `from` up to `to` through a window; false if the ray ended.
+  bool takeSteps(const std::uint8_t* start, const std::int32_t* offsets, std::size_t from,
+                 std::size_t to) {
+    for (std::size_t i = from; i < to; i += kGathered) {
+      const std::size_t cells = std::min(kGathered, to - i);
       if (!takeGathered(gather(start, offsets + i, cells), i, i + cells)) return false;
     }
     return true;
@@ -228,11 +240,18 @@ void countRays(const Fan& fan, VolumetricGain& gain) {
 
 void countCones(const Fan& fan, float depth_voxels, Tally& tally) {
   fan.forEachRay([&](const TemplateRays::Ray& ray, const std::int32_t* cells) {
+    const std::size_t known = fan.rays.stepsInside(ray, fan.known);
+    const std::size_t free = freeBefore(fan.start, cells, known);
+    tally.gain.free_voxels += static_cast<int>(free);
+    // Most rays meet nothing but free space and a wall.
+    if (free < known && static_cast<Occupancy>(fan.start[cells[free]]) == Occupancy::kOccupied) {
+      ++tally.gain.occupied_voxels;
+      return;
+    }
     ConeCount cone({fan.rays.coneVolumes().data() + ray.cone,
                     fan.rays.coneLengths().data() + ray.cone, depth_voxels},
                    tally);
-    const std::size_t known = fan.rays.stepsInside(ray, fan.known);
-    if (cone.takeSteps(fan.start, cells, known))
+    if (cone.takeSteps(fan.start, cells, free, known))
       cone.takeUnknown(known, fan.rays.stepsInside(ray, fan.reachable));
   });
 }

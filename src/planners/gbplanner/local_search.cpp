@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
+#include <utility>
 
 #include "spelunk/common/stopwatch.h"
 #include "spelunk/planners/gbplanner/exploration_gain.h"
@@ -46,9 +48,9 @@ struct Search {
 
   void computeVolumetricGains() {
     const Stopwatch watch;
-    for (const Polyline& path : paths) {
-      plan.gains_m3.push_back(view.gainAt(path.back(), headingAtEnd(path)));
-    }
+    plan.gains_m3.resize(paths.size());
+    for (const std::size_t i : neighboursInTurn())
+      plan.gains_m3[i] = view.gainAt(paths[i].back(), headingAtEnd(paths[i]));
     stats.gain_ms = watch.milliseconds();
   }
 
@@ -80,6 +82,21 @@ struct Search {
   }
 
  private:
+  /// All vertices, strip by strip: rays of neighbours read the same part of the map, which then
+  /// is in the processor's cache.
+  [[nodiscard]] std::vector<std::size_t> neighboursInTurn() const {
+    constexpr double kStrip_m = 8.0;
+    const auto place = [&](std::size_t i) {
+      const Eigen::Vector3d& end = paths[i].back();
+      return std::make_pair(std::floor(end.y() / kStrip_m), end.x());
+    };
+    std::vector<std::size_t> order(paths.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::sort(order.begin(), order.end(),
+              [&](std::size_t a, std::size_t b) { return place(a) < place(b); });
+    return order;
+  }
+
   void addPrincipalPaths(double gain_min_m3, double gain_max_m3) {
     std::vector<Polyline> promising;
     std::vector<double> gains;
