@@ -6,12 +6,14 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <string>
 #include <vector>
 
 #include "spelunk/common/contract.h"
 #include "spelunk/common/log.h"
+#include "spelunk/common/wide_loops.h"
 #include "spelunk/sim/triangle_distance.h"
 
 namespace spelunk::sim {
@@ -22,6 +24,7 @@ constexpr std::size_t kPacket = 8;
 
 /// Packets traced together; Embree walks a stream of them through the tree as one.
 constexpr std::size_t kPackets = 8;
+constexpr std::size_t kBatch = kPackets * kPacket;
 
 /// Farther off from Embree's range (metres), the range to a triangle's plane is not believed.
 constexpr float kRangeDoubt = 0.01F;
@@ -119,15 +122,54 @@ void setOrigin(const Eigen::Vector3f& origin, RTCRayHit8& packet) {
   }
 }
 
-void aim(const Eigen::Vector3f* directions, std::size_t count, float range_max,
-         RTCRayHit8& packet) {
-  for (std::size_t k = 0; k < kPacket; ++k) {
-    const Eigen::Vector3f& direction = directions[std::min(k, count - 1)];
-    packet.ray.dir_x[k] = direction.x();
-    packet.ray.dir_y[k] = direction.y();
-    packet.ray.dir_z[k] = direction.z();
-    packet.ray.tfar[k] = range_max;
-    packet.hit.geomID[k] = RTC_INVALID_GEOMETRY_ID;
+/// Rays traced together, and the planes of the triangles they hit.
+struct Batch {
+  alignas(32) float x[kBatch];  ///< Directions.
+  alignas(32) float y[kBatch];
+  alignas(32) float z[kBatch];
+  alignas(32) float embree_range[kBatch];
+  alignas(32) double normal_x[kBatch];
+  alignas(32) double normal_y[kBatch];
+  alignas(32) double normal_z[kBatch];
+  alignas(32) double height[kBatch];  ///< Of the planes above the origin, in lengths of normals.
+};
+
+/// Places behind the last of `count` rays repeat it.
+SPELUNK_WIDE_IF_POSSIBLE void takeDirections(const Eigen::Vector3f* directions, std::size_t count,
+                                             Batch& batch) {
+  const float* from = directions->data();
+  for (std::size_t k = 0; k < count; ++k) {
+    batch.x[k] = from[3 * k];
+    batch.y[k] = from[3 * k + 1];
+    batch.z[k] = from[3 * k + 2];
+  }
+  std::fill(batch.x + count, std::end(batch.x), batch.x[count - 1]);
+  std::fill(batch.y + count, std::end(batch.y), batch.y[count - 1]);
+  std::fill(batch.z + count, std::end(batch.z), batch.z[count - 1]);
+}
+
+void aim(const Batch& batch, std::size_t first, float range_max, RTCRayHit8& packet) {
+  std::copy_n(batch.x + first, kPacket, packet.ray.dir_x);
+  std::copy_n(batch.y + first, kPacket, packet.ray.dir_y);
+  std::copy_n(batch.z + first, kPacket, packet.ray.dir_z);
+  std::fill_n(packet.ray.tfar, kPacket, range_max);
+  std::fill_n(packet.hit.geomID, kPacket, RTC_INVALID_GEOMETRY_ID);
+}
+
+/// Embree says which triangle a ray hits; how far that is follows from the triangle's plane.
+/// Embree's own range comes from approximate reciprocals that differ between processors; it
+/// serves for rays that lie in the triangle, whose plane says nothing.
+inline float rangeTo(double height, double slope, float embree_range) {
+  const auto range = static_cast<float>(height / slope);
+  return std::abs(range - embree_range) < kRangeDoubt ? std::max(0.0F, range) : embree_range;
+}
+
+SPELUNK_WIDE_IF_POSSIBLE void findRanges(const Batch& batch, std::size_t count, float* ranges) {
+  for (std::size_t k = 0; k < count; ++k) {
+    const double x = batch.x[k], y = batch.y[k], z = batch.z[k];
+    const double slope = batch.normal_x[k] * x +
+                         (batch.normal_y[k] * y + batch.normal_z[k] * z);  // as Eigen adds
+    ranges[k] = rangeTo(batch.height[k], slope, batch.embree_range[k]);
   }
 }
 
@@ -177,19 +219,24 @@ struct MeshScene::Impl {
     return std::sqrt(query.best_squared);
   }
 
-  /// Embree says which triangle a ray hits; how far that is follows from the triangle's plane.
-  /// Embree's own range comes from approximate reciprocals that differ between processors; it
-  /// serves for rays that lie in the triangle, whose plane says nothing.
-  [[nodiscard]] float rangeTo(unsigned triangle, const Eigen::Vector3d& origin,
-                              const Eigen::Vector3f& direction, float embree_range) const {
-    const Plane& plane = planes[triangle];
-    const double height = plane.offset - plane.normal.dot(origin);
-    const auto range = static_cast<float>(height / plane.normal.dot(direction.cast<double>()));
-    return std::abs(range - embree_range) < kRangeDoubt ? std::max(0.0F, range) : embree_range;
+  /// Takes what the rays of one packet hit to the places from `first` on.
+  void takeHits(const RTCRayHit8& packet, const Eigen::Vector3d& origin, std::size_t first,
+                Batch& batch) const {
+    for (std::size_t lane = 0; lane < kPacket; ++lane) {
+      const bool is_hit = packet.hit.geomID[lane] != RTC_INVALID_GEOMETRY_ID;
+      const Plane& plane = is_hit ? planes[packet.hit.primID[lane]] : no_plane;
+      const std::size_t k = first + lane;
+      batch.normal_x[k] = plane.normal.x();
+      batch.normal_y[k] = plane.normal.y();
+      batch.normal_z[k] = plane.normal.z();
+      batch.height[k] = plane.offset - plane.normal.dot(origin);
+      batch.embree_range[k] = packet.ray.tfar[lane];
+    }
   }
 
   WorldMesh mesh;
   std::vector<Plane> planes;  ///< One a triangle.
+  Plane no_plane{Eigen::Vector3d::Zero(), 0.0};  ///< Leaves the range of a miss as it is.
   RTCDevice device;
   RTCScene scene = nullptr;
 };
@@ -211,22 +258,17 @@ void MeshScene::castFan(const Eigen::Vector3f& origin,
   alignas(32) std::array<RTCRayHit8, kPackets> packets;
   for (RTCRayHit8& packet : packets) setOrigin(origin, packet);
   const Eigen::Vector3d from = origin.cast<double>();
-  for (std::size_t first = 0; first < directions.size(); first += kPackets * kPacket) {
-    const std::size_t count = std::min(kPackets * kPacket, directions.size() - first);
+  Batch batch;
+  for (std::size_t first = 0; first < directions.size(); first += kBatch) {
+    const std::size_t count = std::min(kBatch, directions.size() - first);
     const std::size_t filled = (count + kPacket - 1) / kPacket;
-    for (std::size_t k = 0; k < filled; ++k)
-      aim(&directions[first + k * kPacket], std::min(kPacket, count - k * kPacket), range_max,
-          packets[k]);
+    takeDirections(&directions[first], count, batch);
+    for (std::size_t k = 0; k < filled; ++k) aim(batch, k * kPacket, range_max, packets[k]);
     rtcIntersectNM(impl_->scene, &context, reinterpret_cast<RTCRayHitN*>(packets.data()), kPacket,
                    static_cast<unsigned>(filled), sizeof(RTCRayHit8));
-    for (std::size_t k = 0; k < count; ++k) {
-      const RTCRayHit8& packet = packets[k / kPacket];
-      const std::size_t lane = k % kPacket;
-      ranges[first + k] = packet.hit.geomID[lane] == RTC_INVALID_GEOMETRY_ID
-                              ? range_max
-                              : impl_->rangeTo(packet.hit.primID[lane], from, directions[first + k],
-                                               packet.ray.tfar[lane]);
-    }
+    for (std::size_t k = 0; k < filled; ++k)
+      impl_->takeHits(packets[k], from, k * kPacket, batch);
+    findRanges(batch, count, &ranges[first]);
   }
 }
 
@@ -249,8 +291,11 @@ std::optional<RayHit> MeshScene::castRay(const Eigen::Vector3d& origin,
   query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
   rtcIntersect1(impl_->scene, &context, &query);
   if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
-  const Eigen::Vector3d normal = impl_->planes[query.hit.primID].normal.normalized();
-  return RayHit{impl_->rangeTo(query.hit.primID, from.cast<double>(), along, query.ray.tfar),
+  const Plane& plane = impl_->planes[query.hit.primID];
+  const Eigen::Vector3d normal = plane.normal.normalized();
+  const Eigen::Vector3d start = from.cast<double>();
+  const double height = plane.offset - plane.normal.dot(start);
+  return RayHit{rangeTo(height, plane.normal.dot(along.cast<double>()), query.ray.tfar),
                 normal.dot(direction) > 0.0 ? Eigen::Vector3d(-normal) : normal};
 }
 
