@@ -15,7 +15,7 @@ namespace {
 
 // A face that lies exactly on a border between voxels must not count as touching the next one.
 constexpr double kFaceTolerance = 1e-4;    // metres
-constexpr std::size_t kChunksKept = 2048;  // 65 MB
+constexpr std::size_t kChunksKept = 2048;  // 18 MB
 constexpr const char* kNoMap = "ConfigurationSpace: no map; call use() first";
 
 /// The voxels a box touches.
@@ -189,8 +189,7 @@ bool ConfigurationSpace::Impl::isFree(const VoxelBox& box) {
   const InflatedChunk& chunk = chunkOf(key & ~kInChunkMask);
   if (chunk.isBlocked()) return false;
   const auto within = [&](int axis) { return box.first(axis) & (kChunkSide - 1); };
-  return chunk.isFree(static_cast<std::size_t>(extra.x() + 2 * extra.y() + 4 * extra.z()),
-                      within(0), within(1), within(2));
+  return chunk.isFree({within(0), within(1), within(2)}, extra);
 }
 
 bool ConfigurationSpace::Impl::isFreeVoxelByVoxel(const VoxelBox& box) const {

@@ -18,8 +18,8 @@ struct BoxSpan {
   [[nodiscard]] bool fitsChunks() const { return (least.array() < kChunkSide).all(); }
 };
 
-/// For each voxel of a chunk, whether the box that begins there is free: one bit a voxel for each
-/// of the eight phases (one bit an axis, set if the box spans one voxel more).
+/// For each voxel of a chunk, whether the box at its best phase that begins there is free: one bit
+/// a voxel. A box that spans one voxel more is what two such boxes beside each other cover.
 class InflatedChunk {
  public:
   /// A chunk and those after it along x (bit 0 of the place), y (1) and z (2); nullptr: unknown.
@@ -27,17 +27,22 @@ class InflatedChunk {
 
   InflatedChunk(const Sources& sources, const BoxSpan& span, Passable passable);
 
-  /// Coordinates within the chunk.
-  [[nodiscard]] bool isFree(std::size_t phase, int x, int y, int z) const {
-    return ((rows_[phase][static_cast<std::size_t>(z * kChunkSide + y)] >> x) & 1) != 0;
+  /// `first`: where the box begins, within the chunk; `extra`: 0 or 1, how many voxels more than
+  /// the least it spans on each axis. Not to be asked if all is blocked.
+  [[nodiscard]] bool isFree(const VoxelIndex& first, const VoxelIndex& extra) const {
+    const std::uint64_t* row = rows_.data() + kRows * first.z() + first.y();
+    const std::ptrdiff_t y = extra.y();
+    const std::ptrdiff_t z = kRows * extra.z();
+    const std::uint64_t free = row[0] & row[y] & row[z] & row[y + z];
+    return (((free & (free >> extra.x())) >> first.x()) & 1) != 0;
   }
-  /// Whether no box that begins in the chunk is free.
-  [[nodiscard]] bool isBlocked() const { return is_blocked_; }
+  /// Whether no box is free that begins in the chunk or right after it.
+  [[nodiscard]] bool isBlocked() const { return rows_.empty(); }
 
  private:
-  using Rows = std::array<std::uint32_t, kChunkSide * kChunkSide>;
-  std::vector<Rows> rows_;  ///< One a phase; empty if blocked.
-  bool is_blocked_ = true;
+  static constexpr int kRows = kChunkSide + 1;  ///< Along y and z; with the first after the chunk.
+
+  std::vector<std::uint64_t> rows_;  ///< Along x, by z, then y; empty if blocked.
 };
 
 }  // namespace spelunk::map
