@@ -79,7 +79,12 @@ Corner cornerAt(const Eigen::Vector3d& before, const Eigen::Vector3d& corner,
 
 class CurveBuilder {
  public:
-  explicit CurveBuilder(double step_m) : step_m_(step_m) {}
+  CurveBuilder(const std::vector<Eigen::Vector3d>& corners, double step_m) : step_m_(step_m) {
+    constexpr std::size_t kExtra = 8;  // samples at a corner and where pieces are rounded up
+    double length = 0.0;
+    for (std::size_t i = 1; i < corners.size(); ++i) length += (corners[i] - corners[i - 1]).norm();
+    samples_.reserve(static_cast<std::size_t>(length / step_m) + kExtra * corners.size());
+  }
 
   void line(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
     const double length = (b - a).norm();
@@ -151,7 +156,7 @@ std::vector<CurveSample> roundedCurve(const Path& path, double tolerance_m, doub
   require(tolerance_m > 0.0 && step_m > 0.0, "roundedCurve: tolerance and step must be positive");
   const std::vector<Eigen::Vector3d> points = straightened(path, kStraightenShare * tolerance_m);
   if (points.size() < 2) return {{0.0, points.front()}};
-  CurveBuilder curve(step_m);
+  CurveBuilder curve(points, step_m);
   Eigen::Vector3d from = points.front();
   for (std::size_t i = 1; i + 1 < points.size(); ++i) {
     const Corner corner =

@@ -47,22 +47,28 @@ std::vector<double> speedCaps(const std::vector<CurveSample>& curve, const Motio
   return caps;
 }
 
-/// Lowers each speed to what its neighbour allows, backward then forward.
+/// The speed after the piece from `a` to `b`, or before it, if it is entered at `speed` and all
+/// acceleration is used; never less than `speed`, as the root of a square is exact.
+double speedBeyond(const CurveSample& a, const CurveSample& b, double speed, double limit) {
+  const double along = accelerationAlong(a, b, speed, limit);
+  return std::sqrt(speed * speed + 2.0 * along * (b.arc_m - a.arc_m));
+}
+
+/// Lowers each speed to what its neighbour allows, backward then forward. One that is not above its
+/// neighbour is allowed as it is.
 SpeedProfile profileOf(const std::vector<CurveSample>& curve, const MotionLimits& limits,
                        double start_speed) {
   SpeedProfile profile{speedCaps(curve, limits), {0.0}};
+  profile.time_s.reserve(curve.size());
   std::vector<double>& v = profile.speed_mps;
   const double a = limits.acceleration_mps2;
-  for (std::size_t i = curve.size() - 1; i-- > 0;) {
-    const double along = accelerationAlong(curve[i], curve[i + 1], v[i + 1], a);
-    const double step = curve[i + 1].arc_m - curve[i].arc_m;
-    v[i] = std::min(v[i], std::sqrt(v[i + 1] * v[i + 1] + 2.0 * along * step));
-  }
+  for (std::size_t i = curve.size() - 1; i-- > 0;)
+    if (v[i] > v[i + 1]) v[i] = std::min(v[i], speedBeyond(curve[i], curve[i + 1], v[i + 1], a));
   v[0] = std::min(v[0], start_speed);
   for (std::size_t i = 0; i + 1 < curve.size(); ++i) {
-    const double along = accelerationAlong(curve[i], curve[i + 1], v[i], a);
+    if (v[i + 1] > v[i])
+      v[i + 1] = std::min(v[i + 1], speedBeyond(curve[i], curve[i + 1], v[i], a));
     const double step = curve[i + 1].arc_m - curve[i].arc_m;
-    v[i + 1] = std::min(v[i + 1], std::sqrt(v[i] * v[i] + 2.0 * along * step));
     profile.time_s.push_back(profile.time_s.back() + 2.0 * step / (v[i] + v[i + 1]));
   }
   return profile;
