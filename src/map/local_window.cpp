@@ -41,19 +41,19 @@ std::uint64_t columnsOf(const Mask& mask, int y) {
   return transposed(rows);
 }
 
-/// What the cells held before a copy.
-enum class Cells { kUnknown, kOutdated };
+const StatusChunk kUnknownChunk{};
 
 /// Copies a block's voxels that lie in the window; known + occupied is the status.
 class BlockCopier {
  public:
-  BlockCopier(const VoxelIndex& origin, const VoxelIndex& size, Cells before, std::uint8_t* cells)
-      : origin_(origin), size_(size), before_(before), cells_(cells) {}
+  BlockCopier(const VoxelIndex& origin, const VoxelIndex& size, std::uint8_t* cells)
+      : origin_(origin), size_(size), cells_(cells) {}
 
-  void copy(const StatusBlock& block, const VoxelIndex& corner) {
-    const bool is_unknown = block.known == Mask{};
-    if (is_unknown && before_ == Cells::kUnknown) return;
-    if (!is_unknown) {
+  /// `before`: what the cells hold so far.
+  void copy(const StatusBlock& block, const StatusBlock& before, const VoxelIndex& corner) {
+    if (block.known == before.known && block.occupied == before.occupied) return;
+    const bool was_unknown = before.known == Mask{};
+    if (block.known != Mask{}) {
       known_.min = known_.min.cwiseMin(corner);
       known_.max = known_.max.cwiseMax(corner + VoxelIndex::Constant(kBlockSide - 1));
     }
@@ -63,7 +63,7 @@ class BlockCopier {
     for (int y = first.y(); y < end.y(); ++y) {
       const std::uint64_t known = columnsOf(block.known, y);
       const std::uint64_t occupied = columnsOf(block.occupied, y);
-      if (known == 0 && before_ == Cells::kUnknown) continue;
+      if (known == 0 && was_unknown) continue;
       for (int x = first.x(); x < end.x(); ++x) {
         const std::size_t cell = offsetOf(at.x() + x, at.y() + y, at.z() + first.z());
         copyColumn((known >> (8 * x)) & 0xFF, (occupied >> (8 * x)) & 0xFF, first.z(), end.z(),
@@ -96,7 +96,6 @@ class BlockCopier {
 
   VoxelIndex origin_;
   VoxelIndex size_;
-  Cells before_;
   std::uint8_t* cells_;
   Extent known_{VoxelIndex::Constant(1 << 30), VoxelIndex::Constant(-(1 << 30))};
 };
@@ -128,13 +127,15 @@ std::vector<const StatusChunk*> chunksIn(const FrozenMap::Blocks& blocks, const 
   return found;
 }
 
-void copyChunk(const StatusChunk& chunk, const VoxelIndex& first, const VoxelIndex& last,
-               BlockCopier& copier) {
+/// `before`: the chunk as the window has it.
+void copyChunk(const StatusChunk& chunk, const StatusChunk& before, const VoxelIndex& first,
+               const VoxelIndex& last, BlockCopier& copier) {
   const VoxelIndex corner = unpackIndex(chunk.key);
   for (int slot = 0; slot < 64; ++slot) {
     const VoxelIndex at = corner + 8 * VoxelIndex(slot & 3, (slot >> 2) & 3, slot >> 4);
     if ((at.array() > last.array()).any() || (at.array() + 7 < first.array()).any()) continue;
-    copier.copy(chunk.blocks[static_cast<std::size_t>(slot)], at);
+    const auto i = static_cast<std::size_t>(slot);
+    copier.copy(chunk.blocks[i], before.blocks[i], at);
   }
 }
 
@@ -154,9 +155,9 @@ LocalWindow::LocalWindow(const FrozenMap& map, const AxisAlignedBox& region)
   cell_count_ = static_cast<std::size_t>(size.prod());
   cells_.reset(static_cast<std::uint8_t*>(std::calloc(cell_count_, 1)));
   if (cells_ == nullptr) throw std::bad_alloc();
-  BlockCopier copier(origin_, size_, Cells::kUnknown, cells_.get());
+  BlockCopier copier(origin_, size_, cells_.get());
   for (const StatusChunk* chunk : chunksIn(map.blocks(), origin_, last))
-    copyChunk(*chunk, origin_, last, copier);
+    copyChunk(*chunk, kUnknownChunk, origin_, last, copier);
   known_first_ = copier.known().min;
   known_last_ = copier.known().max;
 }
@@ -171,13 +172,14 @@ void LocalWindow::update(const FrozenMap& before, const FrozenMap& now) {
     return;
   }
   const VoxelIndex last = origin_ + size_ - VoxelIndex::Ones();
-  BlockCopier copier(origin_, size_, Cells::kOutdated, cells_.get());
+  BlockCopier copier(origin_, size_, cells_.get());
   for (std::size_t i = 0; i < chunks.size(); ++i) {
     if (i < old_chunks.size() && old_chunks[i] == chunks[i]) continue;
     const VoxelIndex corner = unpackIndex(chunks[i]->key);
     const bool is_outside = (corner.array() > last.array()).any() ||
                             (corner.array() + kChunkSide <= origin_.array()).any();
-    if (!is_outside) copyChunk(*chunks[i], origin_, last, copier);
+    const StatusChunk& old_chunk = i < old_chunks.size() ? *old_chunks[i] : kUnknownChunk;
+    if (!is_outside) copyChunk(*chunks[i], old_chunk, origin_, last, copier);
   }
   known_first_ = known_first_.cwiseMin(copier.known().min);
   known_last_ = known_last_.cwiseMax(copier.known().max);
