@@ -159,7 +159,8 @@ void Mission::Impl::launchHome() {
   const Eigen::Vector3d tight = HomeGraph::tightBox(robot.box_m);
   if (by_route && isWayClear(by_route->path, robot.box_m) &&
       (!by_trail || by_route->travel_s < by_trail->travel_s ||
-       !isTrailClear(by_trail->path, tight)))
+       !isTrailClear(by_trail->path, tight)) &&
+      isWorthTheRisk(by_route->travel_s, by_trail))
     return fly(by_route->path, planners::PathKind::kHome, robot.box_m);
   if (by_trail && isTrailClear(by_trail->path, robot.box_m))
     return fly(fromMotion(*by_trail), planners::PathKind::kHome, robot.box_m);
@@ -184,6 +185,12 @@ void Mission::Impl::onNoWayHome(const RunningJob& job, const planners::PlanResul
           home.reason);
 }
 
+bool Mission::Impl::isWorthTheRisk(double travel_s, const std::optional<WayHome>& known) {
+  if (!known || !isTrailClear(known->path, HomeGraph::tightBox(robot.box_m))) return true;
+  const double left_s = guard.remaining();
+  return known->travel_s > left_s || known->travel_s + 2.0 * travel_s <= left_s;
+}
+
 void Mission::Impl::acceptWayHome(const RunningJob& job, const planners::PlanResult& home) {
   wants_way_home = false;
   const bool late = active ? now > job.takes_over_s + 1e-6
@@ -195,6 +202,7 @@ void Mission::Impl::acceptWayHome(const RunningJob& job, const planners::PlanRes
   const Path whole = joined(job, home.path);
   const double travel = navigation::travelTime(whole, limitsOf(robot));
   if (active && travel > kWorthReplacing * (active->endTime() - now)) return;
+  if (!isWorthTheRisk(travel, wayByTrail())) return;
   fly(whole, planners::PathKind::kHome, robot.box_m);
 }
 

@@ -180,6 +180,9 @@ struct Mission::Impl {
   void acceptSecondLook(const RunningJob& job, const PlanOutcome& outcome);
   void flyProposal(const Path& path, const Path& rest, const PlanOutcome& outcome);
   void acceptWayHome(const RunningJob& job, const planners::PlanResult& home);
+  /// A way home that was only seen may prove blocked. Whether there is time to find that out at its
+  /// end, to come back and to fly the `known` one, or that one is cut or takes too long anyway.
+  [[nodiscard]] bool isWorthTheRisk(double travel_s, const std::optional<WayHome>& known);
   void onNoPlan(const RunningJob& job, const planners::PlanResult& plan);
   void onFailedPlan(const std::string& why);
   void refuse(const std::string& why, planners::PathOutcome outcome);

@@ -38,12 +38,13 @@ class CutTrail : public testing::Test {
       return ScriptedPlanner::none(PlanStatus::kNoPath);
     };
   }
-  /// Until the robot is back in the flown gallery's far end and stands.
-  void flyOut(ScriptedFlight& flight) {
+  /// Past all stops; the last one lies beyond `x_min_m`.
+  void flyOut(ScriptedFlight& flight, double x_min_m = 17.0) {
     ASSERT_TRUE(flight.start().accepted);
+    started_s_ = flight.now();
     for (int k = 0; k < 600 && at_ < stops_.size(); ++k) flight.step();
     ASSERT_EQ(at_, stops_.size());
-    ASSERT_GT(flight.state().pose.position.x(), 17.0);
+    ASSERT_GT(flight.state().pose.position.x(), x_min_m);
   }
   [[nodiscard]] bool wasSaid(const std::string& text) const {
     return std::any_of(log_.begin(), log_.end(), [&](const std::string& line) {
@@ -55,6 +56,7 @@ class CutTrail : public testing::Test {
   std::vector<Eigen::Vector3d> stops_{
       {19.0, 2.5, 2.5}, {19.0, 7.0, 2.5}, {19.0, 2.5, 2.5}, {18.0, 2.5, 2.5}};
   std::size_t at_ = 0;
+  double started_s_ = 0.0;
   int home_asked_ = 0;
   std::vector<std::string> log_;
 };
@@ -68,6 +70,47 @@ TEST_F(CutTrail, RobotComesHomeByAnotherKnownWay) {
   EXPECT_GT(home_asked_, 0) << "the planner is asked first";
   EXPECT_EQ(flight.collisions(), 0);
   EXPECT_TRUE(wasSaid("the way home is cut at (11.")) << flight.mission().status().reason;
+}
+
+/// Flies through the first gallery and back through the second one; the planner knows a short way
+/// home from there that was only seen.
+class SeenWayHome : public CutTrail {
+ protected:
+  void SetUp() override {
+    CutTrail::SetUp();
+    stops_ = {{19.0, 2.5, 2.5}, {19.0, 7.0, 2.5}, {8.0, 7.0, 2.5}};
+    planner_.on_home = [](const planners::PlanRequest& request) {
+      return ScriptedPlanner::path({request.pose, {{5.0, 7.0, 2.5}, 0.0}, kStart}, PathKind::kHome);
+    };
+  }
+  /// Whether the robot comes home the way it flew.
+  static bool fliesBack(ScriptedFlight& flight) {
+    bool flies_back = false;
+    while (flight.mission().status().state != MissionState::kDone && flight.now() < 200.0) {
+      flight.step();
+      const bool goes_home = flight.mission().status().state == MissionState::kHome;
+      flies_back = flies_back || (goes_home && flight.state().pose.position.x() > 17.0);
+    }
+    EXPECT_LT(distance(flight.state().pose, kStart), 1.0);
+    return flies_back;
+  }
+};
+
+TEST_F(SeenWayHome, IsFlownWhereThereIsTimeToComeBackFromIt) {
+  ScriptedFlight flight(twoGalleries(), kStart, planner_);
+  flyOut(flight, 6.0);
+  EXPECT_FALSE(fliesBack(flight));
+}
+
+TEST_F(SeenWayHome, IsNotReliedUponAtTheEndOfTheEndurance) {
+  MissionParams params;
+  params.reserve_s = 2.0;
+  params.reserve_percent = 0.0;
+  ScriptedFlight flight(twoGalleries(), kStart, planner_, params);
+  constexpr double kThereAndBack_s = 38.0;  // along the trail; not enough to try another way first
+  flight.setBudget(kThereAndBack_s);
+  flyOut(flight, 6.0);
+  EXPECT_TRUE(fliesBack(flight));
 }
 
 TEST_F(CutTrail, AnswersThatTakeSecondsAreWaitedFor) {
