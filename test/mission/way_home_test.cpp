@@ -41,7 +41,6 @@ class CutTrail : public testing::Test {
   /// Past all stops; the last one lies beyond `x_min_m`.
   void flyOut(ScriptedFlight& flight, double x_min_m = 17.0) {
     ASSERT_TRUE(flight.start().accepted);
-    started_s_ = flight.now();
     for (int k = 0; k < 600 && at_ < stops_.size(); ++k) flight.step();
     ASSERT_EQ(at_, stops_.size());
     ASSERT_GT(flight.state().pose.position.x(), x_min_m);
@@ -56,7 +55,6 @@ class CutTrail : public testing::Test {
   std::vector<Eigen::Vector3d> stops_{
       {19.0, 2.5, 2.5}, {19.0, 7.0, 2.5}, {19.0, 2.5, 2.5}, {18.0, 2.5, 2.5}};
   std::size_t at_ = 0;
-  double started_s_ = 0.0;
   int home_asked_ = 0;
   std::vector<std::string> log_;
 };

@@ -101,7 +101,8 @@ struct GbPlannerParams {
           "new global vertices are joined to those within it");
     field("presumed_saving_m", presumed_saving_m, Bounds{0.0, 1e6},
           "a way through gaps of the map is flown if it is shorter by this");
-    field("eta_factor", eta_factor, Bounds{1.0, 5.0}, "travel time is length / speed times this");
+    field("eta_factor", eta_factor, Bounds{1.0, 5.0},
+          "travel time is length / speed times this; the mission adds its own pessimism");
     field("tried_radius_m", tried_radius_m, Bounds{0.1, 50.0},
           "targets this near to a failed one are the same");
     field("visited_radius_m", visited_radius_m, Bounds{0.0, 10.0},
