@@ -118,8 +118,8 @@ void MissionRun::Impl::plan() {
   PlanRow row;
   row.wall_ms = watch.milliseconds();
   row.t_s = now();
-  row.explore = job->explore;
-  row.result = job->explore ? outcome.plan : outcome.home;
+  row.explore = mission::isExploration(*job);
+  row.result = row.explore ? outcome.plan : outcome.home;
   row.length_m = lengthOf(row.result.path);
   row.result.path.clear();
   row.result.remaining.clear();

@@ -1,65 +1,60 @@
 #include "spelunk/mission/mission.h"
 
+#include <cstdio>
+
 #include "mission_impl.h"
 #include "spelunk/common/contract.h"
 
 namespace spelunk::mission {
 
-const char* toText(MissionState state) {
-  switch (state) {
-    case MissionState::kIdle:
-      return "Idle";
-    case MissionState::kExplore:
-      return "Explore";
-    case MissionState::kReposition:
-      return "Reposition";
-    case MissionState::kHome:
-      return "Home";
-    case MissionState::kHold:
-      return "Hold";
-    case MissionState::kDone:
-      return "Done";
-    case MissionState::kEStop:
-      return "EStop";
-  }
-  return "unknown";
+Mission::Impl::Impl(const MissionParams& mission_params, const RobotModel& robot_model,
+                    const map::MapParams& map_params, std::uint64_t seed,
+                    const terrain::TerrainParams& terrain_params)
+    : params(mission_params),
+      robot(robot_model),
+      space(map_params, robot),
+      watch(robot),
+      endurance({params.reserve_s, params.reserve_percent, params.pessimism}, robot.endurance_s),
+      flight(params, robot, space),
+      basis{params, robot, watch, endurance, flight, space},
+      way_home(basis),
+      ground(basis, terrain_params),
+      point(basis),
+      desk(basis, Rng(seed).fork("mission")) {}
+
+Path Mission::Impl::ofBase(Path path) const {
+  for (Pose& pose : path) pose.position.z() -= robot.box_lift_m;
+  return path;
 }
 
-const char* toText(GoToOutcome outcome) {
-  switch (outcome) {
-    case GoToOutcome::kNone:
-      return "none";
-    case GoToOutcome::kUnderway:
-      return "underway";
-    case GoToOutcome::kReached:
-      return "reached";
-    case GoToOutcome::kUnreachable:
-      return "unreachable";
-    case GoToOutcome::kAborted:
-      return "aborted";
-  }
-  return "unknown";
+std::string Mission::Impl::withNumber(const char* format, double value) {
+  char text[160];
+  std::snprintf(text, sizeof text, format, value);
+  return text;
 }
 
-PlanOutcome run(const PlanJob& job, planners::ExplorationPlanner& planner) {
-  PlanOutcome outcome;
-  outcome.number = job.number;
-  if (job.go_to) {
-    outcome.go_to = navigation::Navigator(job.go_to->params).plan(job.go_to->query);
-    return outcome;
-  }
-  if (job.way_home) {
-    outcome.home = findWayHome(*job.way_home);
-    return outcome;
-  }
-  planners::PlanRequest request = job.request;
-  if (job.explore) {
-    outcome.plan = planner.plan(request);
-    if (!outcome.plan.path.empty()) request.pose = outcome.plan.path.back();
-    request.rng = job.request.rng.fork("home");
-  }
-  outcome.home = planner.planHome(request);
-  return outcome;
+MissionStatus Mission::Impl::status() const {
+  const PlanDesk::Counts& counts = desk.counts();
+  MissionStatus status;
+  status.time_s = now;
+  status.state = shown;
+  status.reason = reason;
+  status.last_plan_status = counts.last_plan_status;
+  status.end_reason = end_reason;
+  status.known_volume_m3 = counts.known_volume_m3;
+  status.remaining_s = endurance.guard().remaining();
+  status.way_home_s = endurance.guard().pessimistic(way_home.travel_s());
+  status.margin_s = way_home.margin_s();
+  status.distance_m = watch.distance_m();
+  status.plans = counts.plans;
+  status.replans_obstacle = replans_obstacle;
+  status.replans_deviation = replans_deviation;
+  status.refused_paths = counts.refused_paths;
+  status.zones_marked = space.zones().markedCount();
+  status.go_to = point.status();
+  status.last_stats = counts.last_stats;
+  status.last_map_update_ms = last_map_update_ms;
+  return status;
 }
 
 Mission::Mission(const MissionParams& params, const RobotModel& robot,
@@ -77,7 +72,9 @@ Answer Mission::pause() { return impl_->pause(); }
 Answer Mission::home() { return impl_->goHomeAsAsked(); }
 Answer Mission::emergencyStop() { return impl_->emergencyStop(); }
 Answer Mission::setBounds(const AxisAlignedBox& bounds) { return impl_->setBounds(bounds); }
-Answer Mission::setZones(std::vector<NoGoZone> zones) { return impl_->setZones(std::move(zones)); }
+Answer Mission::setZones(std::vector<NoGoZone> zones) {
+  return impl_->space.zones().setGiven(std::move(zones), impl_->watch.position());
+}
 
 Answer Mission::mayGoTo(const Eigen::Vector3d& point) {
   const std::string problem = impl_->goToProblem(point);
@@ -89,57 +86,51 @@ std::optional<navigation::NavigationQuery> Mission::goToQuery(const Eigen::Vecto
 Answer Mission::goTo(const navigation::NavigationParams& params,
                      const navigation::NavigationQuery& query,
                      const navigation::NavigationAnswer& answer) {
-  return impl_->goTo(params, query, answer);
+  return impl_->goTo({params, query}, answer);
 }
 std::optional<planners::PlanRequest> Mission::requestHere(double now_s) {
-  return impl_->requestHere(now_s);
+  if (!impl_->watch.knowsPose()) return std::nullopt;
+  return impl_->desk.requestAt(impl_->watch.pose(), now_s, impl_->way_home);
 }
 
 std::optional<Command> Mission::tick(double now_s) { return impl_->tick(now_s); }
 
-std::optional<PlanJob> Mission::takeJob() {
-  std::optional<PlanJob> job = std::move(impl_->pending);
-  impl_->pending.reset();
-  return job;
-}
-
+std::optional<PlanJob> Mission::takeJob() { return impl_->desk.takeJob(); }
 std::optional<Command> Mission::accept(const PlanOutcome& outcome, double now_s) {
   return impl_->accept(outcome, now_s);
 }
 
-MissionStatus Mission::status() const { return impl_->status; }
+MissionStatus Mission::status() const { return impl_->status(); }
 
 Path Mission::activePath() const {
-  return impl_->active ? impl_->ofBase(impl_->active->waypoints()) : Path{};
+  const auto& active = impl_->flight.active();
+  return active ? impl_->ofBase(active->waypoints()) : Path{};
 }
 
 std::optional<navigation::NavigationAnswer> Mission::goToPlan() const {
-  if (!impl_->go_to) return std::nullopt;
-  navigation::NavigationAnswer plan = impl_->go_to->plan;
-  plan.path = impl_->ofBase(std::move(plan.path));
+  std::optional<navigation::NavigationAnswer> plan = impl_->point.plan();
+  if (plan) plan->path = impl_->ofBase(std::move(plan->path));
   return plan;
 }
 
-Path Mission::wayHome() const { return impl_->ofBase(impl_->way_home); }
+Path Mission::wayHome() const { return impl_->ofBase(impl_->way_home.path()); }
 Path Mission::trail() const {
-  return impl_->home_graph ? impl_->ofBase(impl_->home_graph->trail()) : Path{};
+  return impl_->way_home.isKnown() ? impl_->ofBase(impl_->way_home.trail()) : Path{};
 }
-const AxisAlignedBox& Mission::bounds() const { return impl_->limits; }
-const std::vector<NoGoZone>& Mission::zones() const { return impl_->no_go; }
+const AxisAlignedBox& Mission::bounds() const { return impl_->space.zones().bounds(); }
+const std::vector<NoGoZone>& Mission::zones() const { return impl_->space.zones().all(); }
 const std::vector<planners::RemainingTarget>& Mission::remaining() const {
-  return impl_->remaining_targets;
+  return impl_->desk.remaining();
 }
-map::OccupancyMap& Mission::map() { return impl_->map; }
+map::OccupancyMap& Mission::map() { return impl_->space.map(); }
 const RobotModel& Mission::robot() const { return impl_->robot; }
-std::shared_ptr<const terrain::TerrainView> Mission::terrain() {
-  return impl_->terrain ? impl_->terrain->freeze() : nullptr;
-}
+std::shared_ptr<const terrain::TerrainView> Mission::terrain() { return impl_->ground.view(); }
 
 Answer Mission::save(const std::string& folder, const planners::PlannerGraph& graph) {
   try {
     writeRecord(folder, impl_->record(graph));
-    impl_->map.save(folder + "/map.ot");
-    impl_->map.save(folder + "/map.bt");
+    impl_->space.map().save(folder + "/map.ot");
+    impl_->space.map().save(folder + "/map.bt");
   } catch (const OutsideError& error) {
     return {false, error.what()};
   }
@@ -147,10 +138,10 @@ Answer Mission::save(const std::string& folder, const planners::PlannerGraph& gr
 }
 
 Answer Mission::load(const std::string& folder, planners::PlannerGraph* graph) {
-  if (impl_->isFlying()) return {false, "load: pause the mission first"};
+  if (isRunning(impl_->task)) return {false, "load: pause the mission first"};
   try {
     MissionRecord record = readRecord(folder);
-    impl_->map.load(folder + "/map.ot");
+    impl_->space.map().load(folder + "/map.ot");
     impl_->takeUp(record);
     if (graph != nullptr) *graph = std::move(record.graph);
   } catch (const OutsideError& error) {

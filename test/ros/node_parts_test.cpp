@@ -299,7 +299,9 @@ class FakePlanner : public planners::ExplorationPlanner {
 mission::PlanJob jobNumber(std::uint64_t number) {
   mission::PlanJob job;
   job.number = number;
-  job.request.map = map::OccupancyMap(map::MapParams()).freeze();
+  mission::ExplorationJob work;
+  work.request.map = map::OccupancyMap(map::MapParams()).freeze();
+  job.work = work;
   return job;
 }
 

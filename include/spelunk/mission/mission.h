@@ -5,133 +5,18 @@
 #include <string>
 #include <vector>
 
-#include "spelunk/common/params.h"
 #include "spelunk/common/robot_model.h"
-#include "spelunk/common/trajectory.h"
 #include "spelunk/map/occupancy_map.h"
-#include "spelunk/mission/way_home_search.h"
+#include "spelunk/mission/answer.h"
+#include "spelunk/mission/command.h"
+#include "spelunk/mission/mission_params.h"
+#include "spelunk/mission/mission_status.h"
+#include "spelunk/mission/plan_job.h"
 #include "spelunk/navigation/navigator.h"
 #include "spelunk/planners/exploration_planner.h"
 #include "spelunk/terrain/terrain_map.h"
 
 namespace spelunk::mission {
-
-enum class MissionState { kIdle, kExplore, kReposition, kHome, kHold, kDone, kEStop };
-[[nodiscard]] const char* toText(MissionState state);  ///< "Idle", "Explore", ...
-
-/// Parameters of the mission (section "mission").
-struct MissionParams {
-  double reserve_s = 20.0;
-  double reserve_percent = 3.0;
-  double pessimism = 1.15;    ///< Travel times are taken this much longer.
-  double plan_ahead_s = 1.5;  ///< A new path takes over this long after it was asked for.
-  double deviation_max_m = 0.8;
-  bool verify_ground = true;  ///< Legged robots only.
-  double home_radius_m = 1.0;
-  double replan_period_s = 2.0;    ///< Local paths are renewed this often while they are flown.
-  double start_clearance_m = 1.0;  ///< Unknown space so near around the start counts as free.
-  int max_samples = 10000;
-
-  template <class Visitor>
-  void visit(Visitor&& field) {
-    field("reserve_s", reserve_s, Bounds{0.0, 1e5}, "endurance that must be left at home",
-          Audience::kUser);
-    field("reserve_percent", reserve_percent, Bounds{0.0, 90.0}, "the same, of the full endurance",
-          Audience::kUser);
-    field("pessimism", pessimism, Bounds{1.0, 5.0}, "factor on every travel time home");
-    field("plan_ahead_s", plan_ahead_s, Bounds{0.0, 30.0}, "the next path starts this far ahead");
-    field("deviation_max_m", deviation_max_m, Bounds{0.05, 10.0},
-          "farther from the path: hold and replan");
-    field("verify_ground", verify_ground, Bounds{},
-          "look at the ground ahead while walking (legged)");
-    field("home_radius_m", home_radius_m, Bounds{0.1, 10.0}, "nearer counts as home");
-    field("replan_period_s", replan_period_s, Bounds{0.2, 1000.0},
-          "a local path is renewed so often");
-    field("start_clearance_m", start_clearance_m, Bounds{0.0, 5.0},
-          "unknown space around the start taken as free");
-    field("max_samples", max_samples, Bounds{10, 10000000}, "samples tried by one plan");
-  }
-};
-
-/// The answer to a request from outside.
-struct Answer {
-  bool accepted = false;
-  std::string reason;
-};
-
-/// What the robot is to do now; replaces what it did before.
-struct Command {
-  Path path;              ///< Empty: stop and hold.
-  Trajectory trajectory;  ///< The same path timed; empty with it.
-  planners::PathKind kind = planners::PathKind::kLocal;
-};
-
-/// A path to a point that was asked for, to be planned by navigation.
-struct NavigationJob {
-  navigation::NavigationParams params;
-  navigation::NavigationQuery query;
-};
-
-/// A plan to be computed, on data that nobody changes: run it in any thread, or at once.
-struct PlanJob {
-  planners::PlanRequest request;
-  bool explore = true;                 ///< false: only the way home is asked for.
-  std::optional<NavigationJob> go_to;  ///< If set, nothing else is asked for.
-  /// If set, the way home is looked for by navigation and the planner is not asked.
-  std::optional<WayHomeSearch> way_home;
-  std::uint64_t number = 0;
-};
-
-/// What a job brought: the plan, and the way home from its end (or from the start if there is
-/// none); or navigation's answer.
-struct PlanOutcome {
-  std::uint64_t number = 0;
-  planners::PlanResult plan;
-  planners::PlanResult home;
-  navigation::NavigationAnswer go_to;
-};
-
-[[nodiscard]] PlanOutcome run(const PlanJob& job, planners::ExplorationPlanner& planner);
-
-enum class GoToOutcome { kNone, kUnderway, kReached, kUnreachable, kAborted };
-[[nodiscard]] const char* toText(GoToOutcome outcome);  ///< "none", "underway", "reached", ...
-
-/// The flight to a point that was asked for. A replan is a new plan because the path in execution
-/// cannot be flown on; taking up more of the same path as it comes into view is not counted.
-struct GoToStatus {
-  GoToOutcome outcome = GoToOutcome::kNone;
-  std::string reason;  ///< Of its end; one sentence.
-  Eigen::Vector3d target = Eigen::Vector3d::Zero();
-  std::optional<Eigen::Vector3d> nearest_reachable;  ///< Only with kUnreachable, where known.
-  int replans_obstacle = 0;   ///< A newly seen obstacle lies on the path, anywhere ahead.
-  int replans_deviation = 0;  ///< The robot left the path, or its inputs failed meanwhile.
-  int replans_unseen = 0;     ///< What comes next on the path cannot be seen from its known end.
-  double planning_s = 0.0;    ///< Wall time of all plans, the first one included.
-  double started_s = 0.0;     ///< Mission time.
-  double ended_s = 0.0;
-};
-
-/// Everything a status line needs.
-struct MissionStatus {
-  double time_s = 0.0;
-  MissionState state = MissionState::kIdle;
-  std::string reason;  ///< Of the newest change or refusal, one sentence.
-  std::string last_plan_status;
-  std::string end_reason;  ///< Why the mission ended; empty before.
-  double known_volume_m3 = 0.0;
-  double remaining_s = 0.0;
-  double way_home_s = 0.0;  ///< Pessimistic.
-  double margin_s = 0.0;    ///< remaining - reserve - way home.
-  double distance_m = 0.0;
-  int plans = 0;
-  int replans_obstacle = 0;
-  int replans_deviation = 0;
-  int refused_paths = 0;
-  int zones_marked = 0;  ///< No-go zones made around untraversable ground.
-  GoToStatus go_to;
-  planners::PlanStats last_stats;
-  double last_map_update_ms = 0.0;
-};
 
 /// The mission: keeps the map, the state machine, the trail and the endurance guard. It asks for
 /// plans by handing out jobs, checks each result by itself and says what the robot is to do.
@@ -215,6 +100,7 @@ class Mission {
   Answer load(const std::string& folder, planners::PlannerGraph* graph);
 
  private:
+  friend struct MissionProbe;  // of the tests: looks at every part
   struct Impl;
   std::unique_ptr<Impl> impl_;
 };

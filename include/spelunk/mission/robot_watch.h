@@ -1,0 +1,69 @@
+#pragma once
+
+#include <Eigen/Geometry>
+#include <map>
+#include <optional>
+#include <string>
+
+#include "spelunk/common/robot_model.h"
+#include "spelunk/map/occupancy_map.h"
+#include "spelunk/mission/input_guard.h"
+
+namespace spelunk::mission {
+
+/// What the robot reports of itself, and whether that can be relied upon: odometry that is odd,
+/// late or silent, scans that are, and a fall. Poses are those of the centre of the robot's box
+/// unless they are called the base's. Times are mission time, seconds.
+class RobotWatch {
+ public:
+  explicit RobotWatch(const RobotModel& robot);
+
+  /// Takes up the state of the base. None if it is good; else what is wrong with it: it is not
+  /// used.
+  std::optional<std::string> takeOdometry(const RobotState& base, double now_s);
+  /// What is wrong with a scan, if anything.
+  [[nodiscard]] std::optional<std::string> faultOf(const Scan& scan, double now_s) const;
+  /// Notes a good scan. False if it follows too soon after the last one that was mapped.
+  bool takesScan(const Scan& scan, double now_s);
+  void noteMapped(const Scan& scan);
+
+  /// Whether there has been any good odometry; what follows asks for it first.
+  [[nodiscard]] bool knowsPose() const { return input_.latest().has_value(); }
+  [[nodiscard]] const RobotState& state() const { return *input_.latest(); }
+  [[nodiscard]] const Pose& pose() const { return state().pose; }
+  [[nodiscard]] std::optional<Eigen::Vector3d> position() const;
+  [[nodiscard]] Pose basePose() const;
+  [[nodiscard]] const Eigen::Isometry3d& T_world_base() const { return T_world_base_; }
+
+  /// Why the inputs cannot be relied upon now; empty if they can.
+  [[nodiscard]] std::string problem(double now_s) const;
+  /// How old the newest mapped scan is, seconds.
+  [[nodiscard]] double scanAge(double now_s) const;
+  [[nodiscard]] int mappedScans() const { return mapped_scans_; }
+  [[nodiscard]] double distance_m() const { return distance_m_; }
+
+  /// Whether a robot with legs is tilted as no slope tilts it.
+  [[nodiscard]] bool isTilted() const { return tilted_since_s_.has_value(); }
+  /// One sentence if it has been tilted too long for a stumble.
+  [[nodiscard]] std::optional<std::string> fall() const;
+
+ private:
+  void watchTilt(const RobotState& base);
+
+  RobotModel robot_;
+  InputGuard input_;
+  std::optional<std::string> input_fault_;  ///< Of the newest odometry.
+  std::optional<double> last_odometry_s_;   ///< When it came in.
+  Pose last_pose_;                          ///< Of the newest good odometry.
+  double distance_m_ = 0.0;
+  Eigen::Isometry3d T_world_base_ = Eigen::Isometry3d::Identity();
+  std::optional<double> last_scan_s_;  ///< When it came in.
+  double newest_scan_s_ = 0.0;         ///< When it was taken.
+  int mapped_scans_ = 0;
+  std::map<std::string, ScanThinning> thinnings_;  ///< By sensor.
+  std::optional<double> tilted_since_s_;
+  double tilted_for_s_ = 0.0;
+  double upright_ = 1.0;  ///< Cosine of the tilt.
+};
+
+}  // namespace spelunk::mission

@@ -1,0 +1,65 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <deque>
+
+#include "spelunk/common/path.h"
+#include "spelunk/common/robot_model.h"
+#include "spelunk/map/configuration_space.h"
+#include "spelunk/map/occupancy_map.h"
+#include "spelunk/mission/home_graph.h"
+#include "spelunk/mission/zones.h"
+#include "spelunk/navigation/swept_path_check.h"
+
+namespace spelunk::mission {
+
+/// What the robot may move through: the map as it is now, the zones, and the ground under a robot
+/// with legs. Paths are those of the centre of the robot's box.
+class SafeSpace {
+ public:
+  SafeSpace(const map::MapParams& map_params, const RobotModel& robot);
+
+  [[nodiscard]] map::OccupancyMap& map() { return map_; }
+  [[nodiscard]] Zones& zones() { return zones_; }
+  [[nodiscard]] const Zones& zones() const { return zones_; }
+  [[nodiscard]] double resolution() const { return map_.params().resolution_m; }
+  /// The robot's own body: returns from there are the robot itself. Full extents, metres.
+  [[nodiscard]] Eigen::Vector3d bodyBox() const;
+
+  /// The configuration space of a box in the map as it is now.
+  [[nodiscard]] map::ConfigurationSpace& of(const Eigen::Vector3d& box,
+                                            map::Passable passable = map::Passable::kKnownFree);
+
+  /// A path out of the robot's present place, with the full safety box; where the robot's margin
+  /// already touches something, its first short step out of there with the body alone.
+  [[nodiscard]] navigation::PathCheck checkProposal(const Path& path);
+  /// The same for a way home, with a box of its own; marked ground has been walked on.
+  [[nodiscard]] navigation::PathCheck checkLeavingForHome(const Path& path,
+                                                          const Eigen::Vector3d& box);
+  /// Whether a box can be moved along a path outside all zones.
+  [[nodiscard]] bool isClear(const Path& path, const Eigen::Vector3d& box);
+  /// The same for the robot's own trail, where marked ground has been walked on.
+  [[nodiscard]] bool isTrailClear(const Path& path, const Eigen::Vector3d& box) {
+    return checkTrail(path, box).isFree();
+  }
+  [[nodiscard]] navigation::PathCheck checkTrail(const Path& path, const Eigen::Vector3d& box);
+
+  /// Asks whether legs find footing between two places; empty for robots that fly.
+  [[nodiscard]] HomeGraph::Footing footing() const;
+  /// Whether legs find footing along a path; always for robots that fly.
+  [[nodiscard]] bool isWalkable(const Path& path);
+  /// Whether the robot's body touches something occupied.
+  [[nodiscard]] bool collidesAt(const Eigen::Vector3d& centre);
+
+ private:
+  [[nodiscard]] navigation::PathCheck checkLeaving(const Path& path, const Eigen::Vector3d& box,
+                                                   const std::vector<NoGoZone>& zones,
+                                                   const AxisAlignedBox& bounds);
+
+  RobotModel robot_;
+  map::OccupancyMap map_;
+  Zones zones_;
+  std::deque<map::ConfigurationSpace> spaces_;  ///< One a box that was asked for.
+};
+
+}  // namespace spelunk::mission

@@ -1,0 +1,181 @@
+#include "spelunk/mission/flight.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "spelunk/navigation/rounded_curve.h"
+
+namespace spelunk::mission {
+namespace {
+
+using planners::PathKind;
+
+/// Estimators of a robot at rest report less.
+constexpr double kRestSpeed_mps = 0.2;
+/// After it every robot has come to rest, whatever its estimator says.
+constexpr double kSettleMax_s = 4.0;
+constexpr double kArrived_m = 0.4;
+constexpr double kArrivalGrace_s = 3.0;  // a robot that is late may still come
+/// Between the robot's nose and what it stops before.
+constexpr double kStopMargin_m = 0.6;
+constexpr double kLagMax_m = 2.0;        // how far back on its line a late robot is looked for
+constexpr double kLagRetimed_m = 0.4;    // half a body length; less is the controller's work
+constexpr double kRetimePeriod_s = 2.0;  // a late robot shall not be timed anew at every tick
+constexpr double kCornerTolerances_m[] = {0.6, 0.3};
+constexpr double kLeastTolerance_m = 0.1;
+constexpr double kTightTolerance_m = 0.02;  // without its margin the box has no room for more
+constexpr double kLineTolerance_m = 0.02;
+constexpr double kBackSpeedShare = 0.4;  // of the fastest walk
+
+Path pathOf(const std::vector<Eigen::Vector3d>& points) {
+  Path path;
+  for (const Eigen::Vector3d& point : points) path.push_back({point, 0.0});
+  return path;
+}
+
+}  // namespace
+
+bool Flight::goesHome() const { return active_ && active_->kind() == PathKind::kHome; }
+
+Path Flight::rest(double now_s) const {
+  return active_ ? active_->line(active_->arcAt(now_s), active_->length()) : Path{};
+}
+
+double Flight::restTime(double now_s) const {
+  return active_ ? std::max(0.0, active_->endTime() - now_s) : 0.0;
+}
+
+Trajectory Flight::smoothest(const Path& path, const navigation::MotionStart& start,
+                             const Eigen::Vector3d& box) {
+  const MotionLimits limits = limitsOf(robot_);
+  map::ConfigurationSpace& space = space_.of(box);
+  for (const double tolerance : kCornerTolerances_m) {
+    Trajectory trajectory = navigation::timed(path, limits, start, tolerance);
+    Path line;
+    for (const TrajectoryPoint& point : trajectory) line.push_back(point.pose);
+    line = pathOf(navigation::straightened(line, kLineTolerance_m));
+    if (navigation::checkPath(space, line, space_.zones().all(), {}).isFree()) return trajectory;
+  }
+  const bool is_tight = box.x() < robot_.box_m.x();
+  return navigation::timed(path, limits, start, is_tight ? kTightTolerance_m : kLeastTolerance_m);
+}
+
+void Flight::fly(const Leg& leg, const Pose& here, double now_s) {
+  navigation::MotionStart start{now_s, Eigen::Vector3d::Zero(), 0.0};
+  Path whole = leg.path;
+  if (active_) {
+    const TrajectoryPoint motion = active_->reference(now_s);
+    start = {now_s, motion.velocity, motion.yaw_rate};
+    whole.front() = motion.pose;
+  } else {
+    whole.front() = here;
+  }
+  Trajectory trajectory = smoothest(whole, start, leg.corner_box);
+  active_.emplace(whole, trajectory, leg.kind, leg.box, space_.resolution());
+  command_ = Command{std::move(whole), std::move(trajectory), leg.kind};
+}
+
+void Flight::goBack(const Path& way, const Pose& here, double now_s) {
+  Path back = way;
+  for (Pose& pose : back) pose.yaw = here.yaw + M_PI;  // timed as if it turned its face that way
+  MotionLimits limits = limitsOf(robot_);
+  limits.speed_mps *= kBackSpeedShare;
+  Trajectory trajectory = navigation::timed(back, limits, {now_s, Eigen::Vector3d::Zero(), 0.0});
+  for (TrajectoryPoint& point : trajectory) {
+    point.pose.yaw = here.yaw;
+    point.yaw_rate = 0.0;
+  }
+  for (Pose& pose : back) pose.yaw = here.yaw;
+  active_.emplace(back, trajectory, PathKind::kLocal, space_.bodyBox(), space_.resolution());
+  command_ = Command{std::move(back), std::move(trajectory), PathKind::kLocal};
+}
+
+void Flight::stop() {
+  command_ = Command{};
+  active_.reset();
+}
+
+bool Flight::isAtRest(const Eigen::Vector3d& velocity, double now_s) const {
+  return velocity.norm() < kRestSpeed_mps || now_s - hold_since_s_ > kSettleMax_s;
+}
+
+Path Flight::joined(const Path& path, double takes_over_s, const Pose& here, double now_s) const {
+  if (!active_) {
+    Path whole = path;
+    whole.front() = here;
+    return whole;
+  }
+  Path whole = active_->line(active_->arcAt(now_s), active_->arcAt(takes_over_s));
+  whole.insert(whole.end(), path.begin() + (whole.size() > 1 ? 1 : 0), path.end());
+  return whole;
+}
+
+/// Only robots with legs may be late: a robot that flies is where its timing says, or off its path.
+bool Flight::isLate(const Pose& here, double now_s) const {
+  return kindOf(robot_) == RobotKind::kLegged &&
+         distance(here, active_->reference(now_s).pose) > kLagRetimed_m;
+}
+
+double Flight::nearestArc(const Pose& here, double now_s) const {
+  const double now_arc = active_->arcAt(now_s);
+  return active_->nearestArc(here.position, now_arc - kLagMax_m, now_arc + kLagRetimed_m);
+}
+
+std::optional<double> Flight::gapOffPath(const Pose& here, double now_s) const {
+  if (!active_) return std::nullopt;
+  double gap = distance(here, active_->reference(now_s).pose);
+  if (isLate(here, now_s)) {
+    const double arc = nearestArc(here, now_s);
+    gap = distance(active_->line(arc, active_->length()).front(), here);
+  }
+  if (gap <= params_.deviation_max_m) return std::nullopt;
+  return gap;
+}
+
+std::optional<Leg> Flight::lateRest(const Pose& here, double now_s) {
+  if (!active_ || !isLate(here, now_s) || now_s < next_retime_s_) return std::nullopt;
+  next_retime_s_ = now_s + kRetimePeriod_s;
+  return Leg(active_->line(nearestArc(here, now_s), active_->length()), active_->kind(),
+             active_->box());
+}
+
+bool Flight::hasArrived(const Pose& here, double now_s) const {
+  if (!active_ || now_s < active_->endTime()) return false;
+  const double gap = distance(here, active_->trajectory().back().pose);
+  return gap <= kArrived_m || now_s >= active_->endTime() + kArrivalGrace_s;
+}
+
+void Flight::noteOccupied(const std::vector<map::VoxelIndex>& voxels, double now_s) {
+  if (active_) active_->noteOccupied(voxels, now_s);
+}
+
+std::optional<double> Flight::findObstacleAhead(double now_s) {
+  if (!active_ || !active_->blockedAt()) return std::nullopt;
+  const double arc = active_->arcAt(now_s);
+  const double speed = active_->reference(now_s).velocity.norm();
+  const double stop_m = brakingDistance(robot_, speed) + kStopMargin_m;
+  const double gap = *active_->blockedAt() - arc;
+  if (gap > stop_m) return std::nullopt;
+  const Path ahead = active_->line(arc, active_->length());
+  const Zones& zones = space_.zones();
+  const auto check = navigation::checkPath(space_.of(active_->box()), ahead,
+                                           goesHome() ? zones.given() : zones.all(), {});
+  if (check.isFree()) {
+    active_->clearBlock();
+    return std::nullopt;
+  }
+  active_->setBlockedAt(arc + check.arc_m);
+  if (check.arc_m > stop_m) return std::nullopt;
+  return gap;
+}
+
+std::optional<Command> Flight::takeCommand() {
+  std::optional<Command> taken = std::exchange(command_, std::nullopt);
+  if (!taken) return taken;
+  for (Pose& pose : taken->path) pose.position.z() -= robot_.box_lift_m;
+  for (TrajectoryPoint& point : taken->trajectory) point.pose.position.z() -= robot_.box_lift_m;
+  return taken;
+}
+
+}  // namespace spelunk::mission

@@ -1,0 +1,128 @@
+#include <algorithm>
+
+#include "mission_impl.h"
+
+namespace spelunk::mission {
+namespace {
+
+constexpr double kRefreshPeriod_s = 0.5;  // of the way home: a robot gets a metre or two farther
+constexpr double kInputRetry_s = 0.5;
+constexpr double kLookAgain_s = 1.0;  // some scans more of the ground ahead
+constexpr double kHomeRetry_s = 1.0;
+
+}  // namespace
+
+/// The order is part of the promise to come home; what comes first is relied upon by what follows.
+std::optional<Command> Mission::Impl::tick(double now_s) {
+  now = now_s;
+  updateEndurance();  // what is left decides everything below
+  updateWayHome();    // and what the way home takes of it; also at rest, for people to see
+  if (!isRunning(task)) return flight.takeCommand();
+  checkInputs();     // a robot that does not know where it is must not judge its path
+  checkPath();       // a robot off its path is not where the checks of the path look
+  checkArrival();    // a path at its end has nothing ahead to be checked
+  checkAhead();      // stop before an obstacle: nothing may come between seeing and stopping ...
+  checkGround();     // ... nor before bad ground, which asks the robot to back off
+  backOff();         // before anything plans: plans from beside bad ground fail
+  checkEndurance();  // after all stops: a stop changes the way home, and then home comes first
+  stepHome();        // before plans: a robot that is at home needs none
+  stepPoint();       // the same for a flight to a point
+  askForPlan();      // last: a plan begins from what was decided above
+  return flight.takeCommand();
+}
+
+void Mission::Impl::updateEndurance() { endurance.update(now); }
+
+void Mission::Impl::updateWayHome() {
+  if (!way_home.isDue(now)) return;
+  if (task == Task::kHome && flight.active()) {
+    way_home.followActive(now);
+  } else if (watch.knowsPose() && !way_home.refresh(now)) {
+    happens(Event::kWayHomeLost, "no known way home is clear any more");
+  }
+  way_home.refreshAt(now + kRefreshPeriod_s);
+}
+
+void Mission::Impl::checkInputs() {
+  const std::string problem = watch.problem(now);
+  inputs_ok = problem.empty();
+  if (inputs_ok) return;
+  if (flight.active()) {
+    happens(Event::kInputsFailed, problem);
+  } else {
+    say(LogLevel::kWarn, "input", problem);
+  }
+  desk.askAt(now + kInputRetry_s);
+}
+
+void Mission::Impl::checkPath() {
+  if (const auto gap_m = flight.gapOffPath(watch.pose(), now)) {
+    ++replans_deviation;
+    return happens(
+        Event::kLeftPath,
+        withNumber("the robot is %.2f m off its path: holding and planning anew", *gap_m));
+  }
+  const auto late_rest = flight.lateRest(watch.pose(), now);
+  if (!late_rest) return;
+  const std::string reason_before = reason;
+  desk.drop();
+  flight.drop();  // it is timed from where the robot is, not from where it should be
+  fly(*late_rest);
+  reason = reason_before;
+}
+
+void Mission::Impl::checkArrival() {
+  if (!flight.hasArrived(watch.pose(), now)) return;
+  if (!flight.goesHome()) desk.noteReached();
+  flight.drop();
+  desk.askBy(now);
+}
+
+void Mission::Impl::checkAhead() {
+  const auto gap_m = flight.findObstacleAhead(now);
+  if (!gap_m) return;
+  ++replans_obstacle;
+  happens(Event::kObstacleAhead,
+          withNumber("new obstacle %.1f m ahead on the path: stopped, planning anew", *gap_m));
+}
+
+void Mission::Impl::checkGround() {
+  const auto finding = ground.look(way_home.trail(), now);
+  if (!finding) return;
+  if (finding->kind == GroundFinding::Kind::kUnseen) {
+    happens(Event::kGroundUnseen, finding->why);
+    return desk.askAt(now + kLookAgain_s);
+  }
+  happens(Event::kGroundBad, finding->why);
+  way_home.noteZone(finding->zone);
+  space.zones().mark(finding->zone);
+}
+
+void Mission::Impl::backOff() {
+  if (!ground.isToBackOff() || flight.active() || !inputs_ok || !isAtRest()) return;
+  const Path back = ground.takeWayBack(way_home.trail());
+  if (!back.empty()) flight.goBack(back, watch.pose(), now);
+}
+
+void Mission::Impl::checkEndurance() {
+  if (way_home.margin_s() < 0.0)
+    happens(Event::kEnduranceLow, "home by endurance: the way home takes what is left");
+}
+
+void Mission::Impl::stepHome() {
+  if (task != Task::kHome || flight.active() || !inputs_ok) return;
+  if (way_home.isAtHome()) return happens(Event::kAtHome, end_reason);
+  const double pause_s = shown == MissionState::kHold ? kHomeRetry_s : 0.0;
+  if (isAtRest() && now >= flight.holdsSince() + pause_s) launchHome();
+}
+
+void Mission::Impl::stepPoint() {
+  if (task == Task::kPoint && !desk.isBusy() && inputs_ok) acceptStep(point.step(way_home, now));
+}
+
+void Mission::Impl::askForPlan() {
+  if (!inputs_ok || ground.isToBackOff()) return;
+  if (desk.wantsPlan(task, way_home, now)) desk.ask(task, way_home, now);
+}
+
+}  // namespace spelunk::mission

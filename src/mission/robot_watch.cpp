@@ -1,0 +1,105 @@
+#include "spelunk/mission/robot_watch.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+namespace spelunk::mission {
+namespace {
+
+/// An estimator or a sensor that is silent for so long has stopped.
+constexpr double kInputSilence_s = 1.0;
+/// A robot that sees what was so long ago cannot stop before what is there now.
+constexpr double kScanAgeMax_s = 2.0;
+/// Clocks of computers that are kept in step differ by far less.
+constexpr double kScanFuture_s = 1.0;
+constexpr double kFallenTilt_deg = 50.0;  // no slope that a robot walks on tilts it so far
+constexpr double kFallenTime_s = 0.3;     // a stumble is shorter
+
+std::string withNumber(const char* format, double value) {
+  char text[160];
+  std::snprintf(text, sizeof text, format, value);
+  return text;
+}
+
+}  // namespace
+
+RobotWatch::RobotWatch(const RobotModel& robot) : robot_(robot), input_(robot.speed_max_mps) {}
+
+std::optional<std::string> RobotWatch::takeOdometry(const RobotState& base, double now_s) {
+  RobotState report = base;
+  report.pose.position.z() += robot_.box_lift_m;
+  if (const auto fault = input_.check(report)) return input_fault_ = fault;
+  if (!input_fault_ && last_odometry_s_) distance_m_ += distance(last_pose_, report.pose);
+  last_pose_ = report.pose;
+  input_fault_.reset();
+  last_odometry_s_ = std::max(now_s, report.stamp_s);
+  T_world_base_ = Eigen::Translation3d(base.pose.position) * base.orientation;
+  watchTilt(base);
+  return std::nullopt;
+}
+
+/// Told by the tilt alone: a robot that lies on its side for some time is not walking any more.
+void RobotWatch::watchTilt(const RobotState& base) {
+  if (kindOf(robot_) != RobotKind::kLegged) return;
+  upright_ = (base.orientation * Eigen::Vector3d::UnitZ()).z();
+  if (upright_ > std::cos(kFallenTilt_deg * M_PI / 180.0)) return tilted_since_s_.reset();
+  if (!tilted_since_s_) tilted_since_s_ = base.stamp_s;
+  tilted_for_s_ = base.stamp_s - *tilted_since_s_;
+}
+
+std::optional<std::string> RobotWatch::fall() const {
+  if (!tilted_since_s_ || tilted_for_s_ < kFallenTime_s) return std::nullopt;
+  return withNumber("the robot has fallen (tilted by %.0f degrees): help it up",
+                    std::acos(std::clamp(upright_, -1.0, 1.0)) * 180.0 / M_PI);
+}
+
+std::optional<std::string> RobotWatch::faultOf(const Scan& scan, double now_s) const {
+  if (!std::isfinite(scan.stamp_s) || !scan.T_world_sensor.matrix().allFinite())
+    return "a scan's stamp or pose is not finite: check tf";
+  if (scan.stamp_s > now_s + kScanFuture_s && last_scan_s_)
+    return "a scan's stamp lies in the future: check the clocks";
+  if (scan.points.empty()) return "a scan without points: check the sensor";
+  return std::nullopt;
+}
+
+/// Scans of sensors the robot's description does not name are all mapped.
+bool RobotWatch::takesScan(const Scan& scan, double now_s) {
+  last_scan_s_ = std::max(now_s, scan.stamp_s);
+  double period_s = 0.0;
+  for (const SensorModel& model : robot_.sensor_models)
+    if (model.name == scan.sensor) period_s = model.mapping_period_s;
+  return thinnings_.try_emplace(scan.sensor, period_s).first->second.takes(scan.stamp_s);
+}
+
+void RobotWatch::noteMapped(const Scan& scan) {
+  newest_scan_s_ = std::max(newest_scan_s_, scan.stamp_s);
+  ++mapped_scans_;
+}
+
+std::optional<Eigen::Vector3d> RobotWatch::position() const {
+  if (!knowsPose()) return std::nullopt;
+  return pose().position;
+}
+
+Pose RobotWatch::basePose() const {
+  Pose base = pose();
+  base.position.z() -= robot_.box_lift_m;
+  return base;
+}
+
+std::string RobotWatch::problem(double now_s) const {
+  if (input_fault_) return *input_fault_;
+  if (!last_odometry_s_ || now_s - *last_odometry_s_ > kInputSilence_s)
+    return "no odometry for more than 1 s: check the state estimation";
+  if (last_scan_s_ && now_s - *last_scan_s_ > kInputSilence_s)
+    return "no scan for more than 1 s: check the sensor";
+  if (last_scan_s_ && scanAge(now_s) > kScanAgeMax_s)
+    return withNumber("scans come in %.1f s late: the computer or the network is overloaded",
+                      scanAge(now_s));
+  return "";
+}
+
+double RobotWatch::scanAge(double now_s) const { return std::max(0.0, now_s - newest_scan_s_); }
+
+}  // namespace spelunk::mission
