@@ -33,7 +33,6 @@ HomeGraph::HomeGraph(const Pose& home, const Eigen::Vector3d& box, double resolu
   last_trail_vertex_ = graph_.addVertex(home.position);
 }
 
-
 void HomeGraph::addEdge(graph::VertexId a, graph::VertexId b, Origin origin) {
   if (a == b || graph_.hasEdge(a, b)) return;
   if (origin == Origin::kChecked && isForbidden(graph_.position(a), graph_.position(b))) return;

@@ -22,6 +22,7 @@ std::optional<Command> Mission::Impl::accept(const PlanOutcome& outcome, double 
   switch (job->kind) {
     case Kind::kExplore:
       acceptExploration(*job, outcome);
+      if (task == Task::kHome) desk.noteSecondLook(outcome.plan, now);  // this was one
       break;
     case Kind::kSecondLook:
       acceptSecondLook(*job, outcome);
