@@ -143,6 +143,7 @@ def draw_map(axes, layers, frame, times, window=None):
              Patch(fc=UNKNOWN, ec="#666a73", label="unknown")]
     axes.legend(handles=marks, loc="lower center", bbox_to_anchor=(0.5, 1.0), fontsize=9,
                 frameon=False, ncol=len(marks), handletextpad=0.5, columnspacing=1.2)
+    axes.ticklabel_format(useOffset=False, style="plain")
     axes.set_xlabel("x [m]")
     axes.set_ylabel("y [m]")
     return way

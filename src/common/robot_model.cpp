@@ -39,6 +39,11 @@ double brakingDistance(const RobotModel& robot, double speed_mps) {
          0.5 * speed_mps * speed_mps / robot.braking_deceleration_mps2;
 }
 
+double reachOf(const RobotModel& robot, double time_limit_s) {
+  const double away_s = 0.5 * std::min(robot.endurance_s, time_limit_s);
+  return robot.speed_max_mps * away_s + longestRange(robot);
+}
+
 RobotModel loadRobot(ParamTree& tree, const std::string& name, const std::string& config_dir) {
   RobotModel robot;
   robot.name = name;

@@ -44,8 +44,10 @@ void survey(const Options& options) {
   const auto config =
       spelunk::mission::loadRunConfig({share_dir, options.robot, "gbplanner", options.assignments});
   spelunk::evaluation::requireWritable(options.out);
-  const auto mesh = spelunk::sim::openWorld(options.world, share_dir + "/worlds",
-                                            spelunk::sim::defaultCacheDir());
+  const auto mesh =
+      spelunk::sim::openWorld(options.world, share_dir + "/worlds", spelunk::sim::defaultCacheDir(),
+                              spelunk::evaluation::surroundingsOf(
+                                  options.start, config.robot, config.map, options.time_limit_s));
   const spelunk::Pose start = spelunk::evaluation::startOf(options.start, options.world, mesh);
   const spelunk::evaluation::ExplorationBound bound(mesh, start, config.robot);
   const std::vector<double> over = bound.over(options.time_limit_s);

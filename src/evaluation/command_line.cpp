@@ -19,16 +19,28 @@ std::optional<std::vector<double>> numbersIn(const std::string& text, std::size_
   return values.size() == count ? std::optional(values) : std::nullopt;
 }
 
-Pose startOf(const std::string& text, const std::string& world, const sim::WorldMesh& mesh) {
-  if (text.empty()) {
-    if (mesh.start) return *mesh.start;
-    throw OutsideError("world '" + world +
-                       "' says no start: give --start x,y,z,yaw or a <name>.json beside the mesh");
-  }
+std::optional<Pose> startIn(const std::string& text) {
+  if (text.empty()) return std::nullopt;
   const auto values = numbersIn(text, 4);
   if (!values)
     throw OutsideError("--start '" + text + "': write it as x,y,z,yaw in metres and radians");
-  return {{values->at(0), values->at(1), values->at(2)}, values->at(3)};
+  return Pose{{values->at(0), values->at(1), values->at(2)}, values->at(3)};
+}
+
+Pose startOf(const std::string& text, const std::string& world, const sim::WorldMesh& mesh) {
+  if (const auto told = startIn(text)) return mesh.frame.written(*told);
+  if (mesh.start) return *mesh.start;
+  throw OutsideError("world '" + world +
+                     "' says no start: give --start x,y,z,yaw or a <name>.json beside the mesh");
+}
+
+sim::Surroundings surroundingsOf(const std::string& start, const RobotModel& robot,
+                                 const map::MapParams& map, double time_limit_s) {
+  sim::Surroundings around;
+  if (const auto told = startIn(start)) around.start = told->position;
+  around.reach_m = reachOf(robot, time_limit_s);
+  around.range_m = map::keyRange(map);
+  return around;
 }
 
 }  // namespace spelunk::evaluation

@@ -130,12 +130,12 @@ void plot(const std::string& share_dir, const std::string& out) {
 }
 
 void sayResult(const spelunk::evaluation::RunRecord& record, double reachable_m3,
-               const std::string& out) {
+               const spelunk::LocalFrame& frame, const std::string& out) {
   std::printf(
       "\n%s\nexplored %.0f m3 of %.0f m3 reachable on %.0f m in %.0f s "
       "(%.1f s of wall time); collisions %d; %s\nwritten to %s\n",
-      record.outcome.c_str(), record.explored_volume_m3, reachable_m3, record.path_length_m,
-      record.mission_time_s, record.wall_time_s, record.collisions,
+      frame.toCaller(record.outcome).c_str(), record.explored_volume_m3, reachable_m3,
+      record.path_length_m, record.mission_time_s, record.wall_time_s, record.collisions,
       record.returned_home
           ? ("home with " + std::to_string(static_cast<int>(record.remaining_at_home_s)) +
              " s left")
@@ -144,11 +144,22 @@ void sayResult(const spelunk::evaluation::RunRecord& record, double reachable_m3
       out.c_str());
 }
 
+/// Lines of the flight name places in the caller's frame, whatever frame it is flown in.
+void logToTerminal(bool quiet, const spelunk::LocalFrame& frame) {
+  spelunk::setLogSink([quiet, frame](spelunk::LogLevel level, const std::string& text) {
+    if (!quiet || level != spelunk::LogLevel::kInfo)
+      std::cerr << "\n" << frame.toCaller(text) << std::flush;
+  });
+}
+
 int fly(const Options& options, bool quiet) {
   Loaded loaded = load(options);
   spelunk::evaluation::requireWritable(options.out);
-  const auto mesh = spelunk::sim::openWorld(options.world, loaded.share_dir + "/worlds",
-                                            spelunk::sim::defaultCacheDir());
+  const auto mesh = spelunk::sim::openWorld(
+      options.world, loaded.share_dir + "/worlds", spelunk::sim::defaultCacheDir(),
+      spelunk::evaluation::surroundingsOf(options.start, loaded.config.robot, loaded.config.map,
+                                          options.time_limit_s));
+  logToTerminal(quiet, mesh.frame);
   spelunk::evaluation::RunSetup setup;
   setup.robot = loaded.config.robot;
   setup.sim = loaded.sim;
@@ -159,20 +170,24 @@ int fly(const Options& options, bool quiet) {
   setup.seed = options.seed;
   setup.time_limit_s = options.time_limit_s;
   setup.delays = loaded.delays;
-  for (const std::string& leg : options.go_to)
-    setup.legs.push_back(legFrom(leg, loaded.config.navigation));
+  for (const std::string& text : options.go_to) {
+    auto leg = legFrom(text, loaded.config.navigation);
+    leg.target = mesh.frame.written(leg.target);
+    setup.legs.push_back(leg);
+  }
   spelunk::evaluation::MissionRun run(setup, mesh, *loaded.planner);
   const auto record =
       quiet ? run.fly() : run.fly([](const spelunk::evaluation::Progress& p) { show(p); });
   const auto reachable = spelunk::evaluation::reachableVolume(mesh, setup.start.position);
   spelunk::evaluation::writeReport(options.out,
                                    {options.planner, options.world, options.robot, options.seed,
-                                    options.time_limit_s, reachable.total_m3},
+                                    options.time_limit_s, reachable.total_m3, mesh.frame},
                                    record);
-  run.mission().map().save(options.out + "/map.bt");
-  spelunk::evaluation::writePlanView(*run.mission().map().freeze(), options.out + "/.plan_view");
+  run.mission().map().save(options.out + "/map.bt", mesh.frame);
+  spelunk::evaluation::writePlanView(*run.mission().map().freeze(), mesh.frame,
+                                     options.out + "/.plan_view");
   plot(loaded.share_dir, options.out);
-  if (!quiet) sayResult(record, reachable.total_m3, options.out);
+  if (!quiet) sayResult(record, reachable.total_m3, mesh.frame, options.out);
   return record.ended_as_it_may ? EXIT_SUCCESS : kExitStranded;
 }
 
@@ -206,9 +221,7 @@ int main(int argc, char** argv) {
     const int code = app.exit(error);
     return code == 0 ? EXIT_SUCCESS : kExitBadInput;
   }
-  spelunk::setLogSink([quiet](spelunk::LogLevel level, const std::string& text) {
-    if (!quiet || level != spelunk::LogLevel::kInfo) std::cerr << "\n" << text << std::flush;
-  });
+  logToTerminal(quiet, {});
   try {
     if (list_params) return listParams(options), EXIT_SUCCESS;
     return fly(options, quiet);

@@ -67,12 +67,14 @@ PlanView planViewOf(const map::FrozenMap& map) {
   return view;
 }
 
-void writePlanView(const map::FrozenMap& map, const std::string& path) {
+void writePlanView(const map::FrozenMap& map, const LocalFrame& frame, const std::string& path) {
   const PlanView view = planViewOf(map);
+  const Eigen::Vector3d corner =
+      frame.toCaller(Eigen::Vector3d(view.origin_m.x(), view.origin_m.y(), view.z_min_m));
   std::ofstream file(path, std::ios::binary);
-  file << "plan_view 1 " << view.width << ' ' << view.height << ' ' << toText(view.origin_m.x())
-       << ' ' << toText(view.origin_m.y()) << ' ' << toText(view.resolution_m) << ' '
-       << toText(view.z_min_m) << '\n';
+  file << "plan_view 1 " << view.width << ' ' << view.height << ' ' << toText(corner.x()) << ' '
+       << toText(corner.y()) << ' ' << toText(view.resolution_m) << ' ' << toText(corner.z())
+       << '\n';
   writeLayer(file, view.free);
   writeLayer(file, view.occupied);
   writeLayer(file, view.floor);

@@ -8,8 +8,10 @@
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <utility>
 
 #include "spelunk/common/contract.h"
+#include "spelunk/mission/moved_mission.h"
 #include "write_file.h"
 
 namespace spelunk::evaluation {
@@ -122,6 +124,23 @@ std::vector<double> planTimes(const RunRecord& record) {
   return times;
 }
 
+/// A record in a parallel frame.
+RunRecord moved(RunRecord record, const Eigen::Vector3d& by) {
+  using spelunk::moved;
+  record.outcome = moved(record.outcome, by);
+  for (TimelineRow& row : record.timeline) row.pose = moved(row.pose, by);
+  for (PlanRow& row : record.plans) {
+    row.verdict = moved(row.verdict, by);
+    row.result.reason = moved(row.result.reason, by);
+  }
+  for (GoToRecord& leg : record.legs) {
+    leg.leg.target = moved(leg.leg.target, by);
+    leg.status = moved(std::move(leg.status), by);
+  }
+  record.remaining_targets = moved(std::move(record.remaining_targets), by);
+  return record;
+}
+
 std::string summaryText(const ReportHeader& header, const RunRecord& record) {
   Json json{{"planner", header.planner},
             {"world", header.world},
@@ -146,7 +165,8 @@ std::string summaryText(const ReportHeader& header, const RunRecord& record) {
             {"plans", record.plans.size()},
             {"plan_time_ms", jsonOf(spreadOf(planTimes(record)))},
             {"map_update_ms", jsonOf(spreadOf(record.map_update_ms))},
-            {"peak_memory_mb", rounded(peakMemoryMb())}};
+            {"peak_memory_mb", rounded(peakMemoryMb())},
+            {"map_origin_m", jsonOf(header.frame.origin())}};
   json["remaining_targets"] = remainingOf(record.remaining_targets);
   for (const GoToRecord& leg : record.legs) json["legs"].push_back(jsonOf(leg));
   return json.dump(2) + "\n";
@@ -178,10 +198,11 @@ void requireWritable(const std::string& folder) {
 }
 
 void writeReport(const std::string& folder, const ReportHeader& header, const RunRecord& record) {
-  writeFile(folder + "/summary.json", summaryText(header, record));
-  writeFile(folder + "/timeline.csv", timelineText(record.timeline));
-  writeFile(folder + "/clearance.csv", clearanceText(record.timeline));
-  writeFile(folder + "/plans.csv", plansText(record.plans));
+  const RunRecord there = header.frame.isCallers() ? record : moved(record, header.frame.origin());
+  writeFile(folder + "/summary.json", summaryText(header, there));
+  writeFile(folder + "/timeline.csv", timelineText(there.timeline));
+  writeFile(folder + "/clearance.csv", clearanceText(there.timeline));
+  writeFile(folder + "/plans.csv", plansText(there.plans));
 }
 
 double peakMemoryMb() {

@@ -17,6 +17,8 @@ constexpr double kFaceTolerance = 1e-4;  // a box does not touch what it overlap
 
 }  // namespace
 
+double keyRange(const MapParams& params) { return keyLimit(params.resolution_m); }
+
 struct OccupancyMap::Impl {
   explicit Impl(const MapParams& map_params)
       : params(map_params), blocks(LogOdds(map_params)), points(map_params), tracer(map_params) {}
@@ -105,15 +107,15 @@ const octomap::OcTree& OccupancyMap::octree() {
   return *impl_->tree;
 }
 
-void OccupancyMap::save(const std::string& path) {
+void OccupancyMap::save(const std::string& path, const LocalFrame& frame) {
   if (octreeFormatOf(path) == OctreeFormat::kFull) {
-    writeOctree(octree(), OctreeFormat::kFull, path);
+    writeOctree(octree(), OctreeFormat::kFull, path, frame);
     return;
   }
   OcTreeMirror likely(impl_->params);
   for (std::size_t i = 0; i < impl_->blocks.blockCount(); ++i)
     likely.updateMaximumLikelihood(impl_->blocks.block(i));
-  writeOctree(likely, OctreeFormat::kMaximumLikelihood, path);
+  writeOctree(likely, OctreeFormat::kMaximumLikelihood, path, frame);
 }
 
 void OccupancyMap::load(const std::string& path) {

@@ -26,6 +26,17 @@ bool endsWith(const std::string& text, const std::string& ending) {
          text.compare(text.size() - ending.size(), ending.size(), ending) == 0;
 }
 
+/// A line that readers of OctoMap files skip; none for the caller's own frame.
+std::string originComment(const LocalFrame& frame) {
+  if (frame.isCallers()) return "";
+  std::ostringstream text;
+  text.imbue(std::locale::classic());
+  text.precision(12);
+  text << "# origin " << frame.origin().x() << ' ' << frame.origin().y() << ' '
+       << frame.origin().z() << " m: add it to every coordinate of this file\n";
+  return text.str();
+}
+
 std::string reason() { return std::strerror(errno); }
 
 /// A file that replaces `path` only when everything reached the disk.
@@ -177,12 +188,14 @@ OctreeFormat octreeFormatOf(const std::string& path) {
   throw OutsideError("cannot tell the format of '" + path + "': its name must end in .bt or .ot");
 }
 
-void writeOctree(const octomap::OcTree& tree, OctreeFormat format, const std::string& path) {
+void writeOctree(const octomap::OcTree& tree, OctreeFormat format, const std::string& path,
+                 const LocalFrame& frame) {
   std::ostringstream out;
   out.imbue(std::locale::classic());
   const bool is_full = format == OctreeFormat::kFull;
-  out << (is_full ? kFullHeader : kLikelyHeader) << "\n# written by spelunk\nid OcTree\nsize "
-      << tree.size() << "\nres " << tree.getResolution() << "\ndata\n";
+  out << (is_full ? kFullHeader : kLikelyHeader) << "\n# written by spelunk\n"
+      << originComment(frame) << "id OcTree\nsize " << tree.size() << "\nres "
+      << tree.getResolution() << "\ndata\n";
   if (is_full)
     tree.writeData(out);
   else

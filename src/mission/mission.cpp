@@ -62,6 +62,8 @@ Mission::Mission(const MissionParams& params, const RobotModel& robot,
                  const terrain::TerrainParams& terrain)
     : impl_(new Impl(params, robot, map_params, seed, terrain)) {}
 Mission::~Mission() = default;
+Mission::Mission(Mission&&) noexcept = default;
+Mission& Mission::operator=(Mission&&) noexcept = default;
 
 void Mission::onOdometry(const RobotState& state) { impl_->takeOdometry(state); }
 map::MapUpdate Mission::onScan(const Scan& scan) { return impl_->takeScan(scan); }
@@ -126,11 +128,14 @@ map::OccupancyMap& Mission::map() { return impl_->space.map(); }
 const RobotModel& Mission::robot() const { return impl_->robot; }
 std::shared_ptr<const terrain::TerrainView> Mission::terrain() { return impl_->ground.view(); }
 
-Answer Mission::save(const std::string& folder, const planners::PlannerGraph& graph) {
+Answer Mission::save(const std::string& folder, const planners::PlannerGraph& graph,
+                     const LocalFrame& frame) {
   try {
-    writeRecord(folder, impl_->record(graph));
-    impl_->space.map().save(folder + "/map.ot");
-    impl_->space.map().save(folder + "/map.bt");
+    MissionRecord record = impl_->record(graph);
+    record.frame = frame;
+    writeRecord(folder, record);
+    impl_->space.map().save(folder + "/map.ot", frame);
+    impl_->space.map().save(folder + "/map.bt", frame);
   } catch (const OutsideError& error) {
     return {false, error.what()};
   }

@@ -6,6 +6,7 @@
 #include <fstream>
 #include <limits>
 #include <nlohmann/json.hpp>
+#include <utility>
 
 #include "spelunk/common/contract.h"
 
@@ -86,8 +87,20 @@ planners::GraphLayer layerFrom(const Json& json) {
   return layer;
 }
 
+MissionRecord moved(MissionRecord record, const Eigen::Vector3d& by) {
+  using spelunk::moved;
+  record.bounds = moved(record.bounds, by);
+  record.given_zones = moved(std::move(record.given_zones), by);
+  record.marked_zones = moved(std::move(record.marked_zones), by);
+  record.trail = moved(std::move(record.trail), by);
+  record.graph = moved(std::move(record.graph), by);
+  return record;
+}
+
+/// A record whose places are in the caller's frame.
 Json jsonOf(const MissionRecord& record) {
   Json json{{"format", kFormat}, {"remaining_s", record.remaining_s}};
+  if (!record.frame.isCallers()) json["map_origin_m"] = vectorOf(record.frame.origin());
   json["bounds"] = {{"min", vectorOf(record.bounds.min)}, {"max", vectorOf(record.bounds.max)}};
   json["zones"] = Json::array();
   for (const NoGoZone& zone : record.given_zones)
@@ -108,6 +121,8 @@ MissionRecord recordFrom(const Json& json) {
   if (json.at("format").get<int>() != kFormat) throw OutsideError("it has an unknown format");
   MissionRecord record;
   record.remaining_s = json.at("remaining_s").get<double>();
+  if (json.contains("map_origin_m"))
+    record.frame = LocalFrame(vectorFrom(json.at("map_origin_m"), 0.0));
   record.bounds.min = vectorFrom(json.at("bounds").at("min"), -kNoLimit);
   record.bounds.max = vectorFrom(json.at("bounds").at("max"), kNoLimit);
   for (const Json& zone : json.at("zones"))
@@ -116,7 +131,7 @@ MissionRecord recordFrom(const Json& json) {
   for (const Json& pose : json.at("trail"))
     record.trail.push_back({vectorFrom(pose, 0.0), pose.at(3).get<double>()});
   for (const Json& layer : json.at("graph")) record.graph.layers.push_back(layerFrom(layer));
-  return record;
+  return moved(std::move(record), -record.frame.origin());
 }
 
 }  // namespace
@@ -127,7 +142,7 @@ void writeRecord(const std::string& folder, const MissionRecord& record) {
   const std::string path = folder + "/mission.json";
   const std::string temporary = path + ".tmp";
   std::ofstream file(temporary);
-  file << jsonOf(record).dump() << '\n';
+  file << jsonOf(moved(record, record.frame.origin())).dump() << '\n';
   file.close();
   if (!file)
     throw OutsideError("cannot write '" + path + "': check the folder, its rights and space");

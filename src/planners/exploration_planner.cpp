@@ -1,5 +1,7 @@
 #include "spelunk/planners/exploration_planner.h"
 
+#include "spelunk/common/moved.h"
+
 namespace spelunk::planners {
 namespace {
 
@@ -46,6 +48,18 @@ const char* toText(PathKind kind) {
       return "home";
   }
   return "unknown";
+}
+
+RemainingTarget moved(RemainingTarget target, const Eigen::Vector3d& by) {
+  target.position += by;
+  target.why = spelunk::moved(target.why, by);
+  return target;
+}
+
+PlannerGraph moved(PlannerGraph graph, const Eigen::Vector3d& by) {
+  for (GraphLayer& layer : graph.layers)
+    for (GraphVertex& vertex : layer.vertices) vertex.position += by;
+  return graph;
 }
 
 PlanResult ExplorationPlanner::plan(const PlanRequest& request) {

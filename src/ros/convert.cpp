@@ -146,6 +146,17 @@ nav_msgs::Odometry toMsg(const RobotState& state, const std::string& frame,
   return message;
 }
 
+geometry_msgs::TransformStamped frameMsg(const LocalFrame& frame, const std::string& world,
+                                         const std::string& local, const ::ros::Time& stamp) {
+  geometry_msgs::TransformStamped message;
+  message.header.frame_id = world;
+  message.header.stamp = stamp;
+  message.child_frame_id = local;
+  message.transform.translation = vectorMsg(frame.origin());
+  message.transform.rotation.w = 1.0;
+  return message;
+}
+
 FromMsg<Eigen::Isometry3d> fromMsg(const geometry_msgs::Pose& message) {
   return isometryOf(vectorOf(message.position), message.orientation);
 }
@@ -225,6 +236,14 @@ FromMsg<std::vector<NoGoZone>> fromMsg(const SetNoGoZones::Request& request) {
     zones.push_back(std::move(zone));
   }
   return {zones, ""};
+}
+
+double cornerError(const SetNoGoZones::Request& request) {
+  float farthest = 0.0F;
+  for (const geometry_msgs::Polygon& polygon : request.polygons)
+    for (const geometry_msgs::Point32& corner : polygon.points)
+      farthest = std::max({farthest, std::fabs(corner.x), std::fabs(corner.y)});
+  return 0.5 * (std::nextafter(farthest, std::numeric_limits<float>::infinity()) - farthest);
 }
 
 FromMsg<double> remainingFromMsg(const sensor_msgs::BatteryState& message, double endurance_s) {

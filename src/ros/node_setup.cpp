@@ -3,6 +3,7 @@
 #include <ros/node_handle.h>
 
 #include <cstdlib>
+#include <optional>
 #include <utility>
 
 #include "spelunk/common/contract.h"
@@ -46,11 +47,9 @@ mission::RunConfig loadConfig(const PrivateParams& given, const Params& params,
   return config;
 }
 
-Pose startOf(const SimNodeParams& params, const sim::WorldMesh& world) {
-  if (params.start.empty()) {
-    if (world.start) return *world.start;
-    throw OutsideError("world '" + params.world + "' has no start: give ~start as x, y, z, yaw");
-  }
+/// The start that a parameter gives, world frame.
+std::optional<Pose> startIn(const SimNodeParams& params) {
+  if (params.start.empty()) return std::nullopt;
   std::vector<double> numbers;
   for (const std::string& text : params.start) {
     char* end = nullptr;
@@ -59,7 +58,13 @@ Pose startOf(const SimNodeParams& params, const sim::WorldMesh& world) {
   }
   if (params.start.size() != 4 || numbers.size() != 4)
     throw OutsideError("~start must be four numbers x, y, z, yaw");
-  return {{numbers[0], numbers[1], numbers[2]}, numbers[3]};
+  return Pose{{numbers[0], numbers[1], numbers[2]}, numbers[3]};
+}
+
+Pose startOf(const SimNodeParams& params, const sim::WorldMesh& world) {
+  if (const auto told = startIn(params)) return world.frame.written(*told);
+  if (world.start) return *world.start;
+  throw OutsideError("world '" + params.world + "' has no start: give ~start as x, y, z, yaw");
 }
 
 }  // namespace
@@ -92,12 +97,16 @@ SimSetup loadSimSetup(const ::ros::NodeHandle& private_node) {
   (void)planners::makePlanner(config.planner, config.tree, config.robot, config.map.resolution_m);
   config.tree.requireClean();
   setup.robot = config.robot;
+  if (const auto start = startIn(setup.node)) setup.around.start = start->position;
+  setup.around.reach_m = reachOf(config.robot, config.robot.endurance_s);
+  setup.around.range_m = map::keyRange(config.map);
   return setup;
 }
 
-SimWorld openWorld(const SimNodeParams& params) {
+SimWorld openWorld(const SimSetup& setup) {
+  const SimNodeParams& params = setup.node;
   SimWorld world;
-  world.mesh = sim::openWorld(params.world, params.worlds_dir, params.cache_dir);
+  world.mesh = sim::openWorld(params.world, params.worlds_dir, params.cache_dir, setup.around);
   world.start = startOf(params, world.mesh);
   return world;
 }

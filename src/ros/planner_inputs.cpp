@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "spelunk/ros/convert.h"
+#include "spelunk/ros/frame_names.h"
 
 namespace spelunk::bridge {
 namespace {
@@ -26,7 +27,8 @@ PlannerInputs::PlannerInputs(const ::ros::NodeHandle& node, const PlannerNodePar
       sensors_(core.with([](MissionCore& c) { return c.mission.robot(); }), params.silence_s),
       node_(node),
       tf_buffer_(::ros::Duration(30.0)),
-      tf_listener_(tf_buffer_),
+      tf_input_(tf_buffer_, [this](TfInput::SentByTwo what,
+                                   const std::string& text) { reportSenders(what, text); }),
       spinner_(1, &queue_) {
   node_.setCallbackQueue(&queue_);
   const ::ros::TransportHints fast = ::ros::TransportHints().tcpNoDelay();
@@ -100,7 +102,24 @@ void PlannerInputs::onTimer() {
     forgetAfterClockJump();
     enterReadyClouds(::ros::Time::now());
     sayWhichSensorsAreMissing();
+    sayIfOdometryComesFromTwo();
   });
+}
+
+void PlannerInputs::reportSenders(TfInput::SentByTwo what, const std::string& text) {
+  core_.with([&](MissionCore& c) {
+    if (what == TfInput::SentByTwo::kClock) c.has_two_clocks = true;
+    c.watch.report(text, text, missionTime(c, ::ros::Time::now()));
+  });
+}
+
+void PlannerInputs::sayIfOdometryComesFromTwo() {
+  if (two_odometries_said_ || odometry_subscriber_.getNumPublishers() < 2) return;
+  two_odometries_said_ = true;
+  const std::string topic = node_.resolveName("odometry");
+  report("odometry senders", "several nodes publish '" + topic +
+                                 "': the robot seems to jump to and fro; put each robot into a "
+                                 "namespace of its own, or remap 'odometry' in the launch file");
 }
 
 void PlannerInputs::sayWhichSensorsAreMissing() {
@@ -130,12 +149,14 @@ void PlannerInputs::enter(const PendingClouds::Item& item) {
     return report("cloud content", "a cloud in frame '" + item.cloud->header.frame_id + "' " +
                                        points.problem + ": check the sensor driver");
   Scan scan;
-  scan.T_world_sensor = item.T_world_sensor;
   scan.points = filtered(std::move(*points.value), cloud_params_);
+  const std::string frame = withoutPrefix(params_.frame_prefix, item.cloud->header.frame_id);
   core_.with([&](MissionCore& c) {
+    scan.T_world_sensor =
+        frameAt(c, item.T_world_sensor.translation()).toLocal(item.T_world_sensor);
     for (const SensorModel& sensor : c.mission.robot().sensor_models)
-      if (sensor.name == item.cloud->header.frame_id) scan.sensor = sensor.name;
-    sensors_.heard(item.cloud->header.frame_id, missionTime(c, ::ros::Time::now()));
+      if (sensor.name == frame) scan.sensor = sensor.name;
+    sensors_.heard(frame, missionTime(c, ::ros::Time::now()));
     scan.stamp_s = c.clock.toMission(item.cloud->header.stamp);
     c.mission.onScan(scan);
   });
@@ -171,8 +192,8 @@ void PlannerInputs::onOdometry(const nav_msgs::Odometry::ConstPtr& odometry) {
                     "odometry " + state.problem + ": check the state estimator");
     core_.with([&](MissionCore& c) {
       state.value->stamp_s = c.clock.toMission(odometry->header.stamp);
-      c.robot = *state.value;
-      c.mission.onOdometry(*state.value);
+      c.robot = frameAt(c, state.value->pose.position).toLocal(*state.value);
+      c.mission.onOdometry(*c.robot);
     });
   });
 }

@@ -5,6 +5,9 @@
 #include <optional>
 #include <utility>
 
+#include "spelunk/mission/moved_mission.h"
+#include "spelunk/ros/frame_names.h"
+
 namespace spelunk::bridge {
 namespace {
 
@@ -24,11 +27,11 @@ PlannerNode::PlannerNode(const ::ros::NodeHandle& node, const ::ros::NodeHandle&
       planner_(std::move(setup.planner)),
       core_(setup.mission, setup.robot, setup.map, setup.terrain,
             static_cast<std::uint64_t>(setup.node.seed), setup.node.time_limit_s),
-      outputs_(node_, params_.world_frame),
+      outputs_(node_, params_.world_frame, localFrame(params_)),
       worker_(planner_, [this](const mission::PlanOutcome& outcome) { takeOver(outcome); }),
       inputs_(node_, params_, setup.cloud, core_),
-      services_(private_node, params_.world_frame, static_cast<std::uint64_t>(params_.seed),
-                setup.navigation, core_, planner_),
+      services_(private_node, params_.world_frame, localFrame(params_),
+                static_cast<std::uint64_t>(params_.seed), setup.navigation, core_, planner_),
       tick_timer_(node_.createTimer(::ros::Duration(1.0 / params_.tick_rate_hz),
                                     [this](const ::ros::TimerEvent&) { tick(); })),
       view_spinner_(1, &view_queue_) {
@@ -52,6 +55,7 @@ void PlannerNode::tick() {
     const auto job = core_.with([&](MissionCore& core) {
       const double now_s = missionTime(core, ::ros::Time::now());
       core.mission.onRemaining(core.endurance.remaining(now_s));
+      publishFrameIfNew(core);
       if (const auto command = core.mission.tick(now_s)) publish(core, *command);
       startIfWanted(core, now_s);
       core.watch.checkSilence(now_s);
@@ -73,7 +77,8 @@ void PlannerNode::takeOver(const mission::PlanOutcome& outcome) {
     const auto graph = std::make_shared<const planners::PlannerGraph>(
         planner_.with([](auto& planner) { return planner->graph(); }));
     shown_graph_.with([&](auto& shown) { shown = graph; });
-    outputs_.publishGraph(*graph, ::ros::Time::now());
+    const LocalFrame frame = core_.with([](const MissionCore& core) { return core.frame; });
+    outputs_.publishGraph(frame.toCaller(*graph), ::ros::Time::now());
   });
 }
 
@@ -92,11 +97,17 @@ void PlannerNode::startIfWanted(MissionCore& core, double now_s) {
 
 void PlannerNode::publish(MissionCore& core, const mission::Command& command) {
   core.kind = command.kind;
-  outputs_.publishCommand(command, core.clock, ::ros::Time::now());
+  outputs_.publishCommand(core.frame.toCaller(command), core.clock, ::ros::Time::now());
+}
+
+void PlannerNode::publishFrameIfNew(const MissionCore& core) {
+  if (!core.is_placed || said_frame_ == core.frame) return;
+  said_frame_ = core.frame;
+  outputs_.publishFrame(core.frame, ::ros::Time::now());
 }
 
 void PlannerNode::publishStatusIfChanged(MissionCore& core, double now_s) {
-  const mission::MissionStatus status = core.mission.status();
+  const mission::MissionStatus status = core.frame.toCaller(core.mission.status());
   const std::string problem = core.watch.current(now_s);
   const std::string said =
       std::string(mission::toText(status.state)) + status.reason + status.end_reason + problem;
@@ -108,14 +119,15 @@ void PlannerNode::publishStatusIfChanged(MissionCore& core, double now_s) {
 void PlannerNode::publishStatus() {
   core_.with([&](MissionCore& core) {
     const ::ros::Time now = ::ros::Time::now();
-    outputs_.publishStatus(core.mission.status(), core.watch.current(core.clock.toMission(now)),
-                           now);
+    outputs_.publishStatus(core.frame.toCaller(core.mission.status()),
+                           core.watch.current(core.clock.toMission(now)), now);
   });
 }
 
 MissionView PlannerNode::viewOf(MissionCore& core) const {
   MissionView view;
-  view.status = core.mission.status();
+  view.frame = core.frame;
+  view.status = core.frame.toCaller(core.mission.status());
   view.box = core.robot.value_or(RobotState()).pose;
   view.box.position.z() += core.mission.robot().box_lift_m;
   view.box_m = core.mission.robot().box_m;
@@ -137,14 +149,14 @@ void PlannerNode::publishViews() {
   holdingOnError(core_, "drawing", [&] {
     if (outputs_.wantsOctomap())
       core_.with([&](MissionCore& core) {
-        outputs_.publishOctomap(core.mission.map(), ::ros::Time::now());
+        outputs_.publishOctomap(core.mission.map(), core.frame, ::ros::Time::now());
       });
     if (!outputs_.wantsMarkers() && !outputs_.wantsMapCloud() && !outputs_.wantsTerrain()) return;
     MissionView view = core_.with([&](MissionCore& core) { return viewOf(core); });
     view.graph = shown_graph_.with([](const auto& shown) { return shown; });
     outputs_.publishMarkers(view, ::ros::Time::now());
-    outputs_.publishMapCloud(*view.map, ::ros::Time::now());
-    if (view.terrain) outputs_.publishTerrain(*view.terrain, ::ros::Time::now());
+    outputs_.publishMapCloud(view, ::ros::Time::now());
+    outputs_.publishTerrain(view, ::ros::Time::now());
   });
 }
 

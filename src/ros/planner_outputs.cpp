@@ -40,8 +40,10 @@ visualization::Scene sceneOf(const MissionView& view) {
 
 }  // namespace
 
-PlannerOutputs::PlannerOutputs(::ros::NodeHandle& node, const std::string& world_frame)
+PlannerOutputs::PlannerOutputs(::ros::NodeHandle& node, const std::string& world_frame,
+                               const std::string& local_frame)
     : frame_(world_frame),
+      local_frame_(local_frame),
       path_(node.advertise<nav_msgs::Path>("path", 1, /*latch=*/true)),
       trajectory_(
           node.advertise<trajectory_msgs::MultiDOFJointTrajectory>("command/trajectory", 1)),
@@ -54,6 +56,11 @@ PlannerOutputs::PlannerOutputs(::ros::NodeHandle& node, const std::string& world
 #ifdef SPELUNK_HAVE_OCTOMAP_MSGS
   octomap_ = node.advertise<octomap_msgs::Octomap>("octomap", 1);
 #endif
+}
+
+void PlannerOutputs::publishFrame(const LocalFrame& frame, const ::ros::Time& now) {
+  if (frame.isCallers()) return;
+  broadcaster_.sendTransform(frameMsg(frame, frame_, local_frame_, now));
 }
 
 void PlannerOutputs::publishCommand(const mission::Command& command, const MissionClock& clock,
@@ -78,39 +85,48 @@ void PlannerOutputs::publishGraph(const planners::PlannerGraph& graph, const ::r
 }
 
 void PlannerOutputs::publishMarkers(const MissionView& view, const ::ros::Time& now) {
-  if (wantsMarkers()) markers_.publish(marker_builder_.build(sceneOf(view), frame_, now));
+  if (wantsMarkers()) markers_.publish(marker_builder_.build(sceneOf(view), idOf(view.frame), now));
 }
 
-void PlannerOutputs::publishMapCloud(const map::FrozenMap& map, const ::ros::Time& now) {
+void PlannerOutputs::publishMapCloud(const MissionView& view, const ::ros::Time& now) {
   if (!wantsMapCloud()) return;
+  const map::FrozenMap& map = *view.map;
   std::vector<Eigen::Vector3f> centres;
   centres.reserve(map.occupiedVoxels());
   if (map.occupiedVoxels() > 0)
     map.forEachOccupied(map.knownBounds(), [&](const map::VoxelIndex& index) {
       centres.push_back(map.centreOf(index).cast<float>());
     });
-  map_cloud_.publish(bridge::toMsg(centres, frame_, now));
+  map_cloud_.publish(bridge::toMsg(centres, idOf(view.frame), now));
 }
 
-void PlannerOutputs::publishTerrain(const terrain::TerrainView& terrain, const ::ros::Time& now) {
-  if (elevation_.getNumSubscribers() > 0) elevation_.publish(elevationMsg(terrain, frame_, now));
-  if (traversability_.getNumSubscribers() > 0)
-    traversability_.publish(traversabilityMsg(terrain, frame_, now));
+void PlannerOutputs::publishTerrain(const MissionView& view, const ::ros::Time& now) {
+  if (!view.terrain) return;
+  if (elevation_.getNumSubscribers() > 0)
+    elevation_.publish(elevationMsg(*view.terrain, idOf(view.frame), now));
+  if (traversability_.getNumSubscribers() == 0) return;
+  nav_msgs::OccupancyGrid grid = traversabilityMsg(*view.terrain, frame_, now);
+  grid.info.origin.position.x += view.frame.origin().x();
+  grid.info.origin.position.y += view.frame.origin().y();
+  grid.info.origin.position.z += view.frame.origin().z();
+  traversability_.publish(grid);
 }
 
 #ifdef SPELUNK_HAVE_OCTOMAP_MSGS
 bool PlannerOutputs::wantsOctomap() const { return octomap_.getNumSubscribers() > 0; }
 
-void PlannerOutputs::publishOctomap(map::OccupancyMap& map, const ::ros::Time& now) {
+void PlannerOutputs::publishOctomap(map::OccupancyMap& map, const LocalFrame& frame,
+                                    const ::ros::Time& now) {
   octomap_msgs::Octomap message;
-  message.header.frame_id = frame_;
+  message.header.frame_id = idOf(frame);
   message.header.stamp = now;
   if (octomap_msgs::binaryMapToMsg(map.octree(), message)) octomap_.publish(message);
 }
 #else
 bool PlannerOutputs::wantsOctomap() const { return false; }
 
-void PlannerOutputs::publishOctomap(map::OccupancyMap& /*map*/, const ::ros::Time& /*now*/) {}
+void PlannerOutputs::publishOctomap(map::OccupancyMap& /*map*/, const LocalFrame& /*frame*/,
+                                    const ::ros::Time& /*now*/) {}
 #endif
 
 }  // namespace spelunk::bridge

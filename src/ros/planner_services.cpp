@@ -4,6 +4,7 @@
 #include <optional>
 #include <utility>
 
+#include "spelunk/mission/moved_mission.h"
 #include "spelunk/navigation/navigator.h"
 #include "spelunk/ros/convert.h"
 
@@ -13,11 +14,19 @@ namespace {
 constexpr const char* kNoOdometry =
     "no good odometry has arrived yet: check the topic 'odometry' and the node's warnings";
 
+constexpr double kCornerError_m = 1e-3;  ///< More is said.
+
 template <class Response>
 bool answer(const mission::Answer& given, Response& response, std::string Response::*text) {
   response.success = given.accepted;
   response.*text = given.reason;
   return true;
+}
+
+/// What the mission says to `ask`, places in the world frame.
+template <class F>
+mission::Answer asked(GuardedCore& core, F&& ask) {
+  return core.with([&](MissionCore& c) { return c.frame.toCaller(std::forward<F>(ask)(c)); });
 }
 
 bool answer(const mission::Answer& given, std_srvs::Trigger::Response& response) {
@@ -39,10 +48,11 @@ bool answering(Response& response, std::string Response::*text, F&& callback) {
 }  // namespace
 
 PlannerServices::PlannerServices(const ::ros::NodeHandle& private_node,
-                                 const std::string& world_frame, std::uint64_t seed,
-                                 const navigation::NavigationParams& navigation, GuardedCore& core,
-                                 GuardedPlanner& planner)
+                                 const std::string& world_frame, const std::string& local_frame,
+                                 std::uint64_t seed, const navigation::NavigationParams& navigation,
+                                 GuardedCore& core, GuardedPlanner& planner)
     : world_frame_(world_frame),
+      local_frame_(local_frame),
       navigation_(navigation),
       rng_(seed),
       core_(core),
@@ -72,47 +82,52 @@ Rng PlannerServices::nextRng(const char* service) {
 
 bool PlannerServices::start(Trigger::Request& /*request*/, Trigger::Response& response) {
   return answering(response, &Trigger::Response::message, [&] {
-    answer(core_.with([](MissionCore& core) {
-      const mission::Answer given = core.mission.start();
-      if (given.accepted) {
-        core.wants_start = false;
-        core.endurance.start(missionTime(core, ::ros::Time::now()));
-      }
-      return given;
-    }),
+    answer(asked(core_,
+                 [](MissionCore& core) {
+                   const mission::Answer given = core.mission.start();
+                   if (given.accepted) {
+                     core.wants_start = false;
+                     core.endurance.start(missionTime(core, ::ros::Time::now()));
+                   }
+                   return given;
+                 }),
            response);
   });
 }
 
 bool PlannerServices::pause(Trigger::Request& /*request*/, Trigger::Response& response) {
   return answering(response, &Trigger::Response::message, [&] {
-    answer(core_.with([](MissionCore& core) {
-      core.wants_start = false;
-      return core.mission.pause();
-    }),
+    answer(asked(core_,
+                 [](MissionCore& core) {
+                   core.wants_start = false;
+                   return core.mission.pause();
+                 }),
            response);
   });
 }
 
 bool PlannerServices::home(Trigger::Request& /*request*/, Trigger::Response& response) {
   return answering(response, &Trigger::Response::message, [&] {
-    answer(core_.with([](MissionCore& core) { return core.mission.home(); }), response);
+    answer(asked(core_, [](MissionCore& core) { return core.mission.home(); }), response);
   });
 }
 
 bool PlannerServices::emergencyStop(Trigger::Request& /*request*/, Trigger::Response& response) {
   return answering(response, &Trigger::Response::message, [&] {
-    answer(core_.with([](MissionCore& core) {
-      core.wants_start = false;
-      return core.mission.emergencyStop();
-    }),
+    answer(asked(core_,
+                 [](MissionCore& core) {
+                   core.wants_start = false;
+                   return core.mission.emergencyStop();
+                 }),
            response);
   });
 }
 
 bool PlannerServices::plan(Plan::Request& /*request*/, Plan::Response& response) {
   return answering(response, &Plan::Response::reason, [&] {
-    const auto request = core_.with([](MissionCore& core) {
+    LocalFrame frame;
+    const auto request = core_.with([&](MissionCore& core) {
+      frame = core.frame;
       return core.mission.requestHere(missionTime(core, ::ros::Time::now()));
     });
     if (!request) {
@@ -125,16 +140,18 @@ bool PlannerServices::plan(Plan::Request& /*request*/, Plan::Response& response)
     const auto result = planner_.with([&](auto& planner) { return planner->plan(wanted); });
     response.success = result.status == planners::PlanStatus::kOk;
     response.status = planners::toText(result.status);
-    response.reason = result.reason;
-    response.path = bridge::toMsg(result.path, world_frame_, ::ros::Time::now());
+    response.reason = frame.toCaller(result.reason);
+    response.path = bridge::toMsg(frame.toCaller(result.path), world_frame_, ::ros::Time::now());
   });
 }
 
 bool PlannerServices::goTo(GoTo::Request& request, GoTo::Response& response) {
   return answering(response, &GoTo::Response::reason, [&] {
-    const Eigen::Vector3d target(request.target.x, request.target.y, request.target.z);
+    const LocalFrame frame = core_.with([](const MissionCore& core) { return core.frame; });
+    const Eigen::Vector3d target =
+        frame.toLocal(Eigen::Vector3d(request.target.x, request.target.y, request.target.z));
     const mission::Answer may =
-        core_.with([&](MissionCore& core) { return core.mission.mayGoTo(target); });
+        asked(core_, [&](MissionCore& core) { return core.mission.mayGoTo(target); });
     if (!may.accepted) {
       response.reason = may.reason;
       return;
@@ -143,19 +160,20 @@ bool PlannerServices::goTo(GoTo::Request& request, GoTo::Response& response) {
     query->rng = nextRng("go_to");
     query->time_limit_s = navigation_.planning_time_s;
     const auto found = navigation::Navigator(navigation_).plan(*query);
-    const mission::Answer given = core_.with(
-        [&](MissionCore& core) { return core.mission.goTo(navigation_, *query, found); });
+    const mission::Answer given = asked(
+        core_, [&](MissionCore& core) { return core.mission.goTo(navigation_, *query, found); });
     response.success = given.accepted;
     response.reason = given.reason;
     const Eigen::Vector3d lift = query->goal.position - target;  // of the box above the base
     if (found.nearest_reachable) {
       const Eigen::Vector3d nearest = *found.nearest_reachable - lift;
-      response.reason += "; the nearest point that can be reached is " + toText(nearest);
+      response.reason +=
+          "; the nearest point that can be reached is " + toText(frame.toCaller(nearest));
     }
     if (!given.accepted) return;
     Path base_path = found.path;
     for (Pose& pose : base_path) pose.position -= lift;
-    response.path = bridge::toMsg(base_path, world_frame_, ::ros::Time::now());
+    response.path = bridge::toMsg(frame.toCaller(base_path), world_frame_, ::ros::Time::now());
   });
 }
 
@@ -164,7 +182,10 @@ bool PlannerServices::setBounds(SetBounds::Request& request, SetBounds::Response
     const auto bounds = boundsFromMsg(request.min, request.max);
     response.reason = bounds.problem;
     if (!bounds.value) return;
-    answer(core_.with([&](MissionCore& core) { return core.mission.setBounds(*bounds.value); }),
+    answer(asked(core_,
+                 [&](MissionCore& core) {
+                   return core.mission.setBounds(core.frame.toLocal(*bounds.value));
+                 }),
            response, &SetBounds::Response::reason);
   });
 }
@@ -174,15 +195,36 @@ bool PlannerServices::setZones(SetNoGoZones::Request& request, SetNoGoZones::Res
     const auto zones = fromMsg(request);
     response.reason = zones.problem;
     if (!zones.value) return;
-    answer(core_.with([&](MissionCore& core) { return core.mission.setZones(*zones.value); }),
+    answer(asked(core_, [&](MissionCore& core) { return setZones(core, request, *zones.value); }),
            response, &SetNoGoZones::Response::reason);
   });
+}
+
+mission::Answer PlannerServices::setZones(MissionCore& core, const SetNoGoZones::Request& request,
+                                          const std::vector<NoGoZone>& zones) const {
+  const bool is_local = request.frame_id == local_frame_;
+  if (!is_local && !request.frame_id.empty() && request.frame_id != world_frame_)
+    return {false, "frame_id is '" + request.frame_id + "': give the zones in '" + world_frame_ +
+                       "' or '" + local_frame_ + "'"};
+  if (is_local && !core.is_placed)
+    return {false, "where '" + local_frame_ +
+                       "' lies is known with the first odometry: wait for it, or give the zones in "
+                       "'" +
+                       world_frame_ + "'"};
+  mission::Answer given = core.mission.setZones(is_local ? zones : core.frame.toLocal(zones));
+  const double error_m = is_local ? 0.0 : cornerError(request);
+  if (given.accepted && error_m > kCornerError_m)
+    given.reason += "; their corners are only exact to " + toText(error_m) +
+                    " m, as they are 32-bit numbers: give them in frame_id '" + local_frame_ + "'";
+  return given;
 }
 
 bool PlannerServices::save(Save::Request& request, Save::Response& response) {
   return answering(response, &Save::Response::reason, [&] {
     const auto graph = planner_.with([](auto& planner) { return planner->graph(); });
-    answer(core_.with([&](MissionCore& core) { return core.mission.save(request.path, graph); }),
+    answer(core_.with([&](MissionCore& core) {
+      return core.mission.save(request.path, graph, core.frame);
+    }),
            response, &Save::Response::reason);
   });
 }
@@ -191,7 +233,7 @@ bool PlannerServices::load(Load::Request& request, Load::Response& response) {
   return answering(response, &Load::Response::reason, [&] {
     planners::PlannerGraph graph;
     const mission::Answer given =
-        core_.with([&](MissionCore& core) { return core.mission.load(request.path, &graph); });
+        core_.with([&](MissionCore& core) { return bridge::load(core, request.path, graph); });
     if (given.accepted) planner_.with([&](auto& planner) { planner->restore(graph); });
     answer(given, response, &Load::Response::reason);
   });

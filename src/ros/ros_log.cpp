@@ -6,8 +6,9 @@
 
 namespace spelunk::bridge {
 
-void logToRos() {
-  setLogSink([](LogLevel level, const std::string& text) {
+void logToRos(const LocalFrame& frame) {
+  setLogSink([frame](LogLevel level, const std::string& line) {
+    const std::string text = frame.toCaller(line);
     switch (level) {
       case LogLevel::kInfo:
         ROS_INFO_STREAM(text);

@@ -15,14 +15,19 @@
 #include "spelunk/navigation/trajectory_timing.h"
 #include "spelunk/ros/convert.h"
 #include "spelunk/ros/convert_robot.h"
+#include "spelunk/ros/frame_names.h"
 #include "spelunk/ros/mesh_marker.h"
 #include "spelunk/ros/pacer.h"
+#include "spelunk/ros/tf_input.h"
 
 namespace spelunk::bridge {
 namespace {
 
 constexpr double kBatteryPeriod_s = 0.5;
 constexpr double kVoltage_v = 14.8;
+constexpr double kClockPatience_s = 5.0;  ///< Wall time without /clock that is said.
+constexpr double kClockJump_s = 1.0;
+constexpr double kClockLook_s = 0.002;  ///< Wall time between looks at /clock.
 
 geometry_msgs::TransformStamped transformMsg(const Eigen::Isometry3d& T_parent_child,
                                              const std::string& parent, const std::string& child,
@@ -39,11 +44,14 @@ geometry_msgs::TransformStamped transformMsg(const Eigen::Isometry3d& T_parent_c
 SimNode::SimNode(const ::ros::NodeHandle& node, const SimSetup& setup, const SimWorld& world)
     : params_(setup.node),
       robot_(setup.robot),
-      mesh_(meshMarker(world.mesh, params_.world_frame)),
+      frame_(world.mesh.frame),
+      base_frame_(prefixed(params_.frame_prefix, params_.base_frame)),
+      local_frame_(frame_.isCallers() ? params_.world_frame
+                                      : prefixed(params_.frame_prefix, "local_mesh")),
+      mesh_(meshMarker(world.mesh, local_frame_)),
       simulator_(setup.sim, setup.robot, world.mesh, world.start,
                  static_cast<std::uint64_t>(params_.seed)),
       node_(node),
-      clock_(node_.advertise<rosgraph_msgs::Clock>("/clock", 10)),
       odometry_(node_.advertise<nav_msgs::Odometry>("odometry", 50)),
       cloud_(node_.advertise<sensor_msgs::PointCloud2>("pointcloud", 5)),
       battery_(node_.advertise<sensor_msgs::BatteryState>("battery", 5)),
@@ -58,10 +66,16 @@ SimNode::SimNode(const ::ros::NodeHandle& node, const SimSetup& setup, const Sim
       path_subscriber_(node_.subscribe("path", 5, &SimNode::onPath, this)),
       drive_subscriber_(node_.subscribe("cmd_vel", 5, &SimNode::onDrive, this,
                                         ::ros::TransportHints().tcpNoDelay())) {
-  if (kindOf(robot_) == RobotKind::kLegged) walker_outputs_.emplace(node_, params_.world_frame);
+  if (params_.clock) clock_subscriber_ = node_.subscribe("/clock", 10, &SimNode::onClock, this);
+  if (params_.clock) clock_ = node_.advertise<rosgraph_msgs::Clock>("/clock", 10);
+  if (!frame_.isCallers())
+    static_broadcaster_.sendTransform(
+        frameMsg(frame_, params_.world_frame, local_frame_, ::ros::Time::now()));
+  if (kindOf(robot_) == RobotKind::kLegged) walker_outputs_.emplace(node_, local_frame_);
 }
 
 void SimNode::run() {
+  if (!params_.clock) return runByClock();
   Pacer pacer(params_.speed_factor);
   const double step_s = 1.0 / params_.odometry_rate_hz;
   for (std::int64_t number = 1; ::ros::ok(); ++number) {
@@ -74,48 +88,69 @@ void SimNode::run() {
   }
 }
 
+void SimNode::runByClock() {
+  const double step_s = 1.0 / params_.odometry_rate_hz;
+  while (::ros::ok() && ::ros::Time::now().isZero())
+    if (!::ros::Time::waitForValid(::ros::WallDuration(kClockPatience_s)))
+      log(LogLevel::kWarn,
+          "waiting for /clock, which another simulator has to publish: start one with ~clock true");
+  begin_s_ = ::ros::Time::now().toSec();
+  for (std::int64_t number = 1; ::ros::ok();) {
+    const double time_s = static_cast<double>(number) * step_s;
+    const double early_s = begin_s_ + time_s - ::ros::Time::now().toSec();
+    ::ros::getGlobalCallbackQueue()->callAvailable(
+        ::ros::WallDuration(early_s > 0.0 ? kClockLook_s : 0.0));
+    if (early_s > kClockJump_s) begin_s_ -= early_s;  // /clock began anew: go on with it
+    if (early_s > 0.0) continue;
+    step(time_s);
+    ++number;
+  }
+}
+
 void SimNode::step(double time_s) {
   const auto scans = simulator_.advanceTo(time_s);
   publishClock();
   publishState();
   publishScans(scans);
   publishCollisions();
-  if (walker_outputs_) walker_outputs_->publish(simulator_);
+  if (walker_outputs_) walker_outputs_->publish(simulator_, stampOf(simulator_.time()));
   if (time_s < next_battery_s_) return;
   next_battery_s_ = time_s + kBatteryPeriod_s;
   publishBattery();
 }
 
 void SimNode::publishClock() {
+  if (!params_.clock) return;
   rosgraph_msgs::Clock message;
-  message.clock = ::ros::Time(simulator_.time());
+  message.clock = stampOf(simulator_.time());
   clock_.publish(message);
 }
 
 void SimNode::publishState() {
-  const RobotState state = simulator_.odometry();
-  const ::ros::Time stamp(simulator_.time());
+  const RobotState state = frame_.toCaller(simulator_.odometry());
+  const ::ros::Time stamp = stampOf(simulator_.time());
   std::vector<geometry_msgs::TransformStamped> transforms = {
-      transformMsg(T_world_body(state), params_.world_frame, params_.base_frame, stamp)};
+      transformMsg(T_world_body(state), params_.world_frame, base_frame_, stamp)};
   for (const SensorModel& sensor : robot_.sensor_models)
-    transforms.push_back(
-        transformMsg(T_base_sensor(sensor), params_.base_frame, sensor.name, stamp));
+    transforms.push_back(transformMsg(T_base_sensor(sensor), base_frame_,
+                                      prefixed(params_.frame_prefix, sensor.name), stamp));
   broadcaster_.sendTransform(transforms);
   if (odometry_.getNumSubscribers() > 0)
-    odometry_.publish(toMsg(state, params_.world_frame, params_.base_frame, stamp));
+    odometry_.publish(toMsg(state, params_.world_frame, base_frame_, stamp));
 }
 
 void SimNode::publishScans(const std::vector<sim::SimulatedScan>& scans) {
   if (cloud_.getNumSubscribers() == 0) return;
   for (const sim::SimulatedScan& scan : scans)
-    cloud_.publish(toMsg(scan.scan.points, scan.scan.sensor, ::ros::Time(scan.scan.stamp_s)));
+    cloud_.publish(toMsg(scan.scan.points, prefixed(params_.frame_prefix, scan.scan.sensor),
+                         stampOf(scan.scan.stamp_s)));
 }
 
 void SimNode::publishBattery() {
   if (battery_.getNumSubscribers() == 0) return;
   const sim::BatteryState state = simulator_.battery();
   sensor_msgs::BatteryState message;
-  message.header.stamp = ::ros::Time(simulator_.time());
+  message.header.stamp = stampOf(simulator_.time());
   message.present = true;
   message.voltage = static_cast<float>(kVoltage_v);
   message.charge = static_cast<float>(state.energy_wh / kVoltage_v);
@@ -149,11 +184,17 @@ void SimNode::refuse(const std::string& what, const std::string& problem) {
   simulator_.follow({});
 }
 
+void SimNode::onClock(const ::ros::MessageEvent<rosgraph_msgs::Clock const>& event) {
+  const auto both = senders_.heard("/clock", event.getPublisherName());
+  if (both) log(LogLevel::kError, twoClocksText(both->first, both->second));
+}
+
 void SimNode::onTrajectory(const trajectory_msgs::MultiDOFJointTrajectory::ConstPtr& message) {
   obeys_trajectories_ = true;
   auto trajectory = fromMsg(*message, params_.world_frame);
   if (!trajectory.value) return refuse("command/trajectory", trajectory.problem);
-  simulator_.follow(std::move(*trajectory.value));
+  for (TrajectoryPoint& point : *trajectory.value) point.time_s -= begin_s_;
+  simulator_.follow(frame_.toLocal(std::move(*trajectory.value)));
 }
 
 void SimNode::onPath(const nav_msgs::Path::ConstPtr& message) {
@@ -162,7 +203,7 @@ void SimNode::onPath(const nav_msgs::Path::ConstPtr& message) {
   if (!path.value) return refuse("path", path.problem);
   if (path.value->empty()) return simulator_.follow({});
   const RobotState state = simulator_.odometry();
-  Path from_here = *path.value;
+  Path from_here = frame_.toLocal(*path.value);
   from_here.insert(from_here.begin(), state.pose);
   simulator_.follow(navigation::timed(from_here, limitsOf(robot_),
                                       {simulator_.time(), state.velocity, state.yaw_rate}));

@@ -22,25 +22,25 @@ bool sayIfNew(int count, const ::ros::Publisher& publisher, std::optional<int>& 
 
 }  // namespace
 
-WalkerOutputs::WalkerOutputs(::ros::NodeHandle& node, const std::string& world_frame)
-    : frame_(world_frame),
+WalkerOutputs::WalkerOutputs(::ros::NodeHandle& node, const std::string& frame)
+    : frame_(frame),
       joints_(node.advertise<sensor_msgs::JointState>("joint_states", 50)),
       feet_(node.advertise<visualization_msgs::MarkerArray>("feet", 2)),
       falls_(node.advertise<std_msgs::UInt32>("falls", 5, /*latch=*/true)),
       slips_(node.advertise<std_msgs::UInt32>("slips", 5, /*latch=*/true)) {}
 
-void WalkerOutputs::publish(const sim::Simulator& simulator) {
-  if (joints_.getNumSubscribers() > 0)
-    joints_.publish(toMsg(simulator.joints(), ::ros::Time(simulator.time())));
-  if (feet_.getNumSubscribers() > 0 && simulator.time() >= next_feet_s_) publishFeet(simulator);
+void WalkerOutputs::publish(const sim::Simulator& simulator, const ::ros::Time& stamp) {
+  if (joints_.getNumSubscribers() > 0) joints_.publish(toMsg(simulator.joints(), stamp));
+  if (feet_.getNumSubscribers() > 0 && simulator.time() >= next_feet_s_)
+    publishFeet(simulator, stamp);
   publishCounts(simulator);
 }
 
-void WalkerOutputs::publishFeet(const sim::Simulator& simulator) {
+void WalkerOutputs::publishFeet(const sim::Simulator& simulator, const ::ros::Time& stamp) {
   next_feet_s_ = simulator.time() + kFeetPeriod_s;
   visualization::Scene scene;
   visualization::drawFeet(marksOf(simulator.feet(), T_world_body(simulator.odometry())), scene);
-  feet_.publish(marker_builder_.build(scene, frame_, ::ros::Time(simulator.time())));
+  feet_.publish(marker_builder_.build(scene, frame_, stamp));
 }
 
 void WalkerOutputs::publishCounts(const sim::Simulator& simulator) {

@@ -122,6 +122,16 @@ std::string knownNames(const std::string& worlds_dir) {
   return text.empty() ? "none" : text;
 }
 
+/// A mesh in the caller's frame, held in another one.
+WorldMesh heldIn(const LocalFrame& frame, WorldMesh mesh) {
+  if (frame.isCallers()) return mesh;
+  mesh.frame = frame;
+  for (Eigen::Vector3f& vertex : mesh.vertices)
+    vertex = frame.toLocal<Eigen::Vector3d>(vertex.cast<double>()).cast<float>();
+  if (mesh.start) mesh.start = frame.toLocal(*mesh.start);
+  return mesh;
+}
+
 bool looksLikePath(const std::string& text) {
   return text.find('/') != std::string::npos || fs::path(text).has_extension();
 }
@@ -143,10 +153,10 @@ std::string defaultCacheDir() {
 }
 
 WorldMesh openWorld(const std::string& name_or_path, const std::string& worlds_dir,
-                    const std::string& cache_dir) {
+                    const std::string& cache_dir, const Surroundings& around) {
   std::error_code failure;
   const fs::path description = fs::path(worlds_dir) / (name_or_path + ".yaml");
-  if (looksLikePath(name_or_path)) return loadWorldMesh(name_or_path);
+  if (looksLikePath(name_or_path)) return loadWorldMesh(name_or_path, around);
   if (!fs::is_regular_file(description, failure))
     throw OutsideError("world '" + name_or_path +
                        "' is not known; give the path of a mesh or one of: " +
@@ -158,7 +168,8 @@ WorldMesh openWorld(const std::string& name_or_path, const std::string& worlds_d
     writeCache(*mesh, cached);
   }
   mesh->name = name_or_path;
-  return std::move(*mesh);
+  const Eigen::Vector3d first = around.start.value_or(mesh->start.value_or(Pose{}).position);
+  return heldIn(LocalFrame::around(first, around.reach_m, around.range_m), std::move(*mesh));
 }
 
 }  // namespace spelunk::sim

@@ -17,7 +17,7 @@ constexpr double kRise_m = 0.5;       ///< Feet may stand so far above the groun
 constexpr double kSlopeMax_deg = 30;  ///< No robot is set on steeper ground.
 
 [[noreturn]] void refuse(const Pose& start, const WorldMesh& mesh, const std::string& reason) {
-  throw OutsideError("start " + textOf(start.position) + " in the world '" + mesh.name +
+  throw OutsideError("start " + textOf(start.position, mesh) + " in the world '" + mesh.name +
                      "': " + reason + " (--start x,y,z,yaw)");
 }
 

@@ -68,7 +68,7 @@ TEST(PlanView, OfAnEmptyMapIsEmpty) {
 TEST(PlanView, IsWrittenAsALineAndThreeLayers) {
   const test::TemporaryFolder folder;
   map::OccupancyMap map = smallMap();
-  writePlanView(*map.freeze(), folder.at("view"));
+  writePlanView(*map.freeze(), LocalFrame(), folder.at("view"));
   std::ifstream file(folder.at("view"), std::ios::binary);
   std::string line;
   std::getline(file, line);
@@ -79,7 +79,7 @@ TEST(PlanView, IsWrittenAsALineAndThreeLayers) {
 
 TEST(PlanView, NamesAFileItCannotWrite) {
   map::OccupancyMap map = smallMap();
-  EXPECT_THROW(writePlanView(*map.freeze(), "/no/such/folder/view"), OutsideError);
+  EXPECT_THROW(writePlanView(*map.freeze(), LocalFrame(), "/no/such/folder/view"), OutsideError);
 }
 
 }  // namespace

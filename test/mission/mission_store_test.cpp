@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <fstream>
+#include <nlohmann/json.hpp>
+
 #include "spelunk/common/contract.h"
 #include "support/temporary_folder.h"
 
@@ -43,6 +46,24 @@ TEST(MissionStore, ReadsWhatItWrote) {
   ASSERT_EQ(read.graph.layers.size(), 1U);
   EXPECT_TRUE(read.graph.layers[0].vertices[0].is_frontier);
   EXPECT_EQ(read.graph.layers[0].edges[0].second, 1U);
+}
+
+TEST(MissionStore, KeepsTheFrameAndWritesPlacesOfTheCaller) {
+  const test::TemporaryFolder folder;
+  MissionRecord record = sample();
+  record.frame = LocalFrame({467000.0, 5420000.0, 300.0});
+  writeRecord(folder.at("saved"), record);
+  const auto json = nlohmann::json::parse(std::ifstream(folder.at("saved/mission.json")));
+  EXPECT_EQ(json["trail"][0], nlohmann::json({467001.0, 5420002.0, 303.0, 0.5}));
+  EXPECT_EQ(json["bounds"]["min"][0], 466990.0);
+  EXPECT_TRUE(json["bounds"]["min"][2].is_null());
+  const MissionRecord read = readRecord(folder.at("saved"));
+  EXPECT_EQ(read.frame, record.frame);
+  EXPECT_EQ(read.trail[1].position, record.trail[1].position);
+  EXPECT_EQ(read.bounds.min, record.bounds.min);
+  EXPECT_EQ(read.given_zones[0].polygon[1], record.given_zones[0].polygon[1]);
+  EXPECT_EQ(read.marked_zones[0].z_max, record.marked_zones[0].z_max);
+  EXPECT_EQ(read.graph.layers[0].vertices[1].position, record.graph.layers[0].vertices[1].position);
 }
 
 TEST(MissionStore, NamesTheMissingFile) {

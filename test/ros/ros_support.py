@@ -131,9 +131,13 @@ class MadeUpRobot:
                              rospy.Time.now())
 
     def publish_tf(self):
+        self.send_frames("base_link", "lidar_16")
+
+    def send_frames(self, base, sensor):
+        """The transforms world -> base -> sensor of now."""
         transforms = []
-        for parent, child, offset in (("world", "base_link", self.position),
-                                      ("base_link", "lidar_16", np.zeros(3))):
+        for parent, child, offset in (("world", base, self.position),
+                                      (base, sensor, np.zeros(3))):
             transform = TransformStamped()
             transform.header.stamp = rospy.Time.now()
             transform.header.frame_id = parent

@@ -49,8 +49,8 @@ struct RobotModel {
     field("braking_deceleration_mps2", braking_deceleration_mps2, Bounds{0.1, 30.0},
           "sure deceleration of a stop");
     field("reaction_time_s", reaction_time_s, Bounds{0.0, 5.0}, "from seeing to braking");
-    field("endurance_s", endurance_s, Bounds{1.0, 1e6}, "how long a full battery lasts at cruising speed",
-          Audience::kUser);
+    field("endurance_s", endurance_s, Bounds{1.0, 1e6},
+          "how long a full battery lasts at cruising speed", Audience::kUser);
     field("sensors", sensors, Bounds{}, "names of files in config/sensors", Audience::kUser);
   }
   [[nodiscard]] std::vector<std::string> problems() const;
@@ -62,6 +62,9 @@ struct RobotModel {
 [[nodiscard]] double longestRange(const RobotModel& robot);
 /// Whether a sensor of it looks all round, so that its heading does not matter.
 [[nodiscard]] bool seesAllAround(const RobotModel& robot);
+/// How far from its start a robot gets that is home again after `time_limit_s` or at the end of its
+/// endurance, and how far it sees from there, metres.
+[[nodiscard]] double reachOf(const RobotModel& robot, double time_limit_s);
 [[nodiscard]] MotionLimits limitsOf(const RobotModel& robot);
 
 /// Distance to a standstill from `speed_mps`, reaction time included.

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "spelunk/common/local_frame.h"
 #include "spelunk/map/frozen_map.h"
 
 namespace spelunk::evaluation {
@@ -24,9 +25,10 @@ struct PlanView {
 /// An empty map gives a view of width and height 0.
 [[nodiscard]] PlanView planViewOf(const map::FrozenMap& map);
 
-/// Writes what scripts/plot_mission.py reads: one text line
+/// Writes what scripts/plot_mission.py reads, in the caller's frame of `frame`, which is the map's:
+/// one text line
 /// "plan_view 1 <width> <height> <origin x> <origin y> <resolution> <z_min>", then the layers free,
 /// occupied and floor as bytes. Throws OutsideError if the file cannot be written.
-void writePlanView(const map::FrozenMap& map, const std::string& path);
+void writePlanView(const map::FrozenMap& map, const LocalFrame& frame, const std::string& path);
 
 }  // namespace spelunk::evaluation

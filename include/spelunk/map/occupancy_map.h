@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "spelunk/common/box.h"
+#include "spelunk/common/local_frame.h"
 #include "spelunk/common/params.h"
 #include "spelunk/common/scan.h"
 #include "spelunk/map/frozen_map.h"
@@ -43,6 +44,9 @@ struct MapParams {
           "one ray a hit voxel, as OctoMap's option of that name");
   }
 };
+
+/// Coordinates below it in amount have OctoMap keys, metres; what lies beyond cannot be mapped.
+[[nodiscard]] double keyRange(const MapParams& params);
 
 /// What one scan did to the map.
 struct MapUpdate {
@@ -89,8 +93,10 @@ class OccupancyMap {
   [[nodiscard]] const octomap::OcTree& octree();
 
   /// Writes .bt (maximum likelihood) or .ot (full) by the ending, through a temporary file so that
-  /// a full disk leaves the old file whole. Throws OutsideError with path and reason.
-  void save(const std::string& path);
+  /// a full disk leaves the old file whole. Keys do not reach far, so the file's coordinates are
+  /// this map's; where `frame` is not the caller's own, a comment in the file's header names its
+  /// origin. Throws OutsideError with path and reason.
+  void save(const std::string& path, const LocalFrame& frame = {});
 
   /// Replaces the content by a .bt or .ot file. Throws OutsideError if it is missing, not an
   /// octree, or of another resolution; the map is then unchanged.

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "spelunk/common/local_frame.h"
 #include "spelunk/common/robot_model.h"
 #include "spelunk/map/occupancy_map.h"
 #include "spelunk/mission/answer.h"
@@ -36,6 +37,8 @@ class Mission {
   Mission(const MissionParams& params, const RobotModel& robot, const map::MapParams& map_params,
           std::uint64_t seed, const terrain::TerrainParams& terrain = {});
   ~Mission();
+  Mission(Mission&&) noexcept;
+  Mission& operator=(Mission&&) noexcept;
 
   // --- What the robot reports. Odd input is refused with a throttled message, never thrown.
   void onOdometry(const RobotState& state);
@@ -95,8 +98,10 @@ class Mission {
 
   /// Saves map.bt/.ot, trail, budget, bounds and zones into a folder (with `graph` if given); load
   /// takes them up again: zones that the robot marked stay apart from those that people set. The
-  /// text of the Answer names path and reason.
-  Answer save(const std::string& folder, const planners::PlannerGraph& graph);
+  /// text of the Answer names path and reason. `frame`: in which this mission works; the record is
+  /// written in the caller's, and loaded in the frame that it was saved with.
+  Answer save(const std::string& folder, const planners::PlannerGraph& graph,
+              const LocalFrame& frame = {});
   Answer load(const std::string& folder, planners::PlannerGraph* graph);
 
  private:

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "spelunk/common/box.h"
+#include "spelunk/common/local_frame.h"
 #include "spelunk/common/path.h"
 #include "spelunk/planners/exploration_planner.h"
 
@@ -17,6 +18,7 @@ struct MissionRecord {
   Path trail;                          ///< First pose: home. Of the centre of the robot's box.
   double remaining_s = 0.0;            ///< Endurance when it was saved.
   planners::PlannerGraph graph;
+  LocalFrame frame;  ///< In which all this is, and the map beside it. The file is in the caller's.
 };
 
 /// Writes `folder`/mission.json through a temporary file; makes the folder. Throws OutsideError

@@ -99,6 +99,8 @@ struct RemainingTarget {
   double gain_m3 = 0.0;
   std::string why;
 };
+/// The same in a parallel frame; places named in `why` included.
+[[nodiscard]] RemainingTarget moved(RemainingTarget target, const Eigen::Vector3d& by);
 
 struct PlanResult {
   PlanStatus status = PlanStatus::kNoPath;
@@ -123,6 +125,7 @@ struct GraphLayer {
 struct PlannerGraph {
   std::vector<GraphLayer> layers;
 };
+[[nodiscard]] PlannerGraph moved(PlannerGraph graph, const Eigen::Vector3d& by);
 
 /// The interface of every exploration planner. Not thread-safe: one caller at a time.
 class ExplorationPlanner {

@@ -2,6 +2,7 @@
 
 #include <geometry_msgs/Point.h>
 #include <geometry_msgs/Pose.h>
+#include <geometry_msgs/TransformStamped.h>
 #include <nav_msgs/Odometry.h>
 #include <nav_msgs/Path.h>
 #include <sensor_msgs/BatteryState.h>
@@ -17,6 +18,7 @@
 #include <vector>
 
 #include "spelunk/common/box.h"
+#include "spelunk/common/local_frame.h"
 #include "spelunk/common/path.h"
 #include "spelunk/common/trajectory.h"
 #include "spelunk/mission/mission.h"
@@ -45,6 +47,11 @@ struct FromMsg {
 /// Velocities in the message are in the body frame, as nav_msgs/Odometry asks.
 [[nodiscard]] nav_msgs::Odometry toMsg(const RobotState& state, const std::string& frame,
                                        const std::string& body_frame, const ::ros::Time& stamp);
+/// Where the origin of a local frame lies, for tf: from `world` to `local`.
+[[nodiscard]] geometry_msgs::TransformStamped frameMsg(const LocalFrame& frame,
+                                                       const std::string& world,
+                                                       const std::string& local,
+                                                       const ::ros::Time& stamp);
 [[nodiscard]] PlannerStatus toMsg(const mission::MissionStatus& status, const std::string& frame,
                                   const ::ros::Time& stamp);
 [[nodiscard]] Graph toMsg(const planners::PlannerGraph& graph, const std::string& frame,
@@ -66,7 +73,11 @@ struct FromMsg {
                                           const Eigen::Isometry3d& T_world_frame);
 [[nodiscard]] FromMsg<AxisAlignedBox> boundsFromMsg(const geometry_msgs::Point& min,
                                                     const geometry_msgs::Point& max);
+/// In the request's own frame.
 [[nodiscard]] FromMsg<std::vector<NoGoZone>> fromMsg(const SetNoGoZones::Request& request);
+/// How far the corners of a request may lie from where they were meant to, because they are 32-bit
+/// numbers, metres.
+[[nodiscard]] double cornerError(const SetNoGoZones::Request& request);
 
 /// Flight time a battery has left, seconds: the smaller one of what its charge and current say and
 /// of what its percentage says, taking `endurance_s` for a full battery.

@@ -4,10 +4,12 @@
 
 #include <cstdint>
 #include <exception>
+#include <functional>
 #include <optional>
 #include <string>
 #include <utility>
 
+#include "spelunk/common/local_frame.h"
 #include "spelunk/common/log.h"
 #include "spelunk/mission/mission.h"
 #include "spelunk/ros/endurance_source.h"
@@ -17,23 +19,44 @@
 
 namespace spelunk::bridge {
 
-/// The mission and what belongs to it; the threads of planner_node share it under one lock.
+/// The mission and what belongs to it; the threads of planner_node share it under one lock. The
+/// mission, its map and all that goes into them and comes out of them are in `frame`; messages,
+/// services and files are in the world frame. Who passes something from one to the other converts
+/// it with `frame` under the same lock.
 struct MissionCore {
   MissionCore(const mission::MissionParams& params, const RobotModel& robot_model,
               const map::MapParams& map_params, const terrain::TerrainParams& terrain,
               std::uint64_t seed, double time_limit_s)
-      : mission(params, robot_model, map_params, seed, terrain),
-        endurance(robot_model.endurance_s, time_limit_s) {}
+      : make_mission(
+            [=] { return mission::Mission(params, robot_model, map_params, seed, terrain); }),
+        mission(make_mission()),
+        endurance(robot_model.endurance_s, time_limit_s),
+        reach_m(reachOf(robot_model, time_limit_s)),
+        range_m(map::keyRange(map_params)) {}
 
+  std::function<mission::Mission()> make_mission;  ///< A new one, as at the node's start.
   mission::Mission mission;
+  LocalFrame frame;        ///< The world frame itself until `is_placed`.
+  bool is_placed = false;  ///< A robot was met, or a saved mission was taken up.
   MissionClock clock;
   EnduranceSource endurance;
+  double reach_m;  ///< See LocalFrame::around().
+  double range_m;
   InputWatch watch;
   std::optional<RobotState> robot;  ///< The newest odometry that was good, mission time.
   planners::PathKind kind = planners::PathKind::kLocal;  ///< Of the active path.
   bool wants_start = false;       ///< Start as soon as the mission accepts it.
+  bool has_two_clocks = false;    ///< That was said; its jumps need not be.
   std::uint64_t clock_jumps = 0;  ///< How often ROS time jumped back.
 };
+
+/// The frame of the mission. The first call chooses it for a robot (or its sensor) at `place`,
+/// world frame; bounds and zones that were set before are taken along.
+const LocalFrame& frameAt(MissionCore& core, const Eigen::Vector3d& place);
+
+/// Takes up what ~save has written, in the frame that it was saved in. If the mission at hand works
+/// in another frame a new one takes its place, which has to be told anew where the robot is.
+mission::Answer load(MissionCore& core, const std::string& folder, planners::PlannerGraph& graph);
 
 using GuardedCore = Guarded<MissionCore>;
 

@@ -19,6 +19,7 @@ struct PlannerNodeParams {
   bool auto_start = false;
   std::string share_dir;
   std::string world_frame = "world";
+  std::string frame_prefix;
   double silence_s = 3.0;
   double tick_rate_hz = 10.0;
   double view_period_s = 1.0;
@@ -34,6 +35,8 @@ struct PlannerNodeParams {
           Audience::kUser);
     field("share_dir", share_dir, Bounds{}, "where config/ and worlds/ lie; empty: the package");
     field("world_frame", world_frame, Bounds{}, "fixed frame of map and paths", Audience::kUser);
+    field("frame_prefix", frame_prefix, Bounds{},
+          "of the robot's frames, e.g. robot_1: robot_1/base_link (tf_prefix)", Audience::kUser);
     field("silence_s", silence_s, Bounds{0.2, 1000.0},
           "warn if cloud or odometry stay away longer");
     field("tick_rate_hz", tick_rate_hz, Bounds{1.0, 100.0}, "of the mission");
@@ -54,6 +57,8 @@ struct SimNodeParams {
   std::string cache_dir;
   std::string world_frame = "world";
   std::string base_frame = "base_link";
+  std::string frame_prefix;
+  bool clock = true;
   double odometry_rate_hz = 50.0;
 
   template <class Visitor>
@@ -70,6 +75,11 @@ struct SimNodeParams {
     field("cache_dir", cache_dir, Bounds{}, "for generated meshes; empty: ~/.cache/spelunk");
     field("world_frame", world_frame, Bounds{}, "fixed frame");
     field("base_frame", base_frame, Bounds{}, "frame of the robot's body");
+    field("frame_prefix", frame_prefix, Bounds{},
+          "of the robot's frames, e.g. robot_1: robot_1/base_link (tf_prefix)", Audience::kUser);
+    field("clock", clock, Bounds{},
+          "publish /clock; false: follow the one that another simulator publishes",
+          Audience::kUser);
     field("odometry_rate_hz", odometry_rate_hz, Bounds{5.0, 400.0}, "odometry, tf and /clock");
   }
 };

@@ -33,9 +33,10 @@ struct SimSetup {
   SimNodeParams node;
   RobotModel robot;
   sim::SimParams sim;
+  sim::Surroundings around;  ///< Where the robot will move.
 };
 
-/// Where the robot is to be.
+/// Where the robot is to be; the start in the mesh's frame.
 struct SimWorld {
   sim::WorldMesh mesh;
   Pose start;
@@ -48,6 +49,6 @@ struct SimWorld {
 
 /// Opens the world that ~world names, and generates it first where that has not been done. Throws
 /// OutsideError if it cannot be opened, or if neither it nor ~start says where to start.
-[[nodiscard]] SimWorld openWorld(const SimNodeParams& params);
+[[nodiscard]] SimWorld openWorld(const SimSetup& setup);
 
 }  // namespace spelunk::bridge

@@ -7,7 +7,6 @@
 #include <sensor_msgs/BatteryState.h>
 #include <sensor_msgs/PointCloud2.h>
 #include <tf2_ros/buffer.h>
-#include <tf2_ros/transform_listener.h>
 
 #include <string>
 
@@ -16,6 +15,7 @@
 #include "spelunk/ros/node_params.h"
 #include "spelunk/ros/pending_clouds.h"
 #include "spelunk/ros/sensor_watch.h"
+#include "spelunk/ros/tf_input.h"
 
 namespace spelunk::bridge {
 
@@ -36,6 +36,7 @@ class PlannerInputs {
 
   void forgetAfterClockJump();
   void sayWhichSensorsAreMissing();
+  void sayIfOdometryComesFromTwo();
   void enterReadyClouds(const ::ros::Time& now);
   void enter(const PendingClouds::Item& item);
   [[nodiscard]] std::string stampProblem(const ::ros::Time& stamp, const ::ros::Time& now) const;
@@ -43,6 +44,7 @@ class PlannerInputs {
                                                          const ::ros::Time& stamp) const;
   /// Whether tf knows the frame at any time.
   [[nodiscard]] bool hasTransform(const std::string& frame) const;
+  void reportSenders(TfInput::SentByTwo what, const std::string& text);
   void report(const std::string& key, const std::string& text);
 
   PlannerNodeParams params_;
@@ -52,6 +54,7 @@ class PlannerInputs {
   PendingClouds pending_;
   SensorWatch sensors_;
   std::uint64_t jumps_seen_ = 0;
+  bool two_odometries_said_ = false;
   bool tf_was_there_ =
       false;  ///< Clouds older than the first transform are dropped without a word.
   InputWatch::Wanted cloud_input_{};
@@ -60,7 +63,7 @@ class PlannerInputs {
   ::ros::NodeHandle node_;
   ::ros::CallbackQueue queue_;
   tf2_ros::Buffer tf_buffer_;
-  tf2_ros::TransformListener tf_listener_;
+  TfInput tf_input_;
   ::ros::Subscriber cloud_subscriber_;
   ::ros::Subscriber odometry_subscriber_;
   ::ros::Subscriber battery_subscriber_;

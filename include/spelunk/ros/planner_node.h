@@ -42,6 +42,7 @@ class PlannerNode {
   void tick();
   void takeOver(const mission::PlanOutcome& outcome);
   void startIfWanted(MissionCore& core, double now_s);
+  void publishFrameIfNew(const MissionCore& core);
   void publishStatusIfChanged(MissionCore& core, double now_s);
   void publishStatus();
   void publishViews();
@@ -56,7 +57,8 @@ class PlannerNode {
   GuardedCore core_;
   Guarded<std::shared_ptr<const planners::PlannerGraph>> shown_graph_;
   PlannerOutputs outputs_;  ///< Commands and status: with the core locked; views: in one thread.
-  std::string last_said_;   ///< State and reason of the newest status; with the core locked.
+  std::optional<LocalFrame> said_frame_;  ///< The newest one told to tf; with the core locked.
+  std::string last_said_;  ///< State and reason of the newest status; with the core locked.
   Throttle start_refusals_;
   std::optional<double> waits_since_s_;  ///< To start; mission time; with the core locked.
   PlanWorker worker_;

@@ -27,8 +27,9 @@ class PlannerServices {
  public:
   /// `core` and `planner` must outlive this. `seed`: of ~plan's and ~go_to's random draws.
   PlannerServices(const ::ros::NodeHandle& private_node, const std::string& world_frame,
-                  std::uint64_t seed, const navigation::NavigationParams& navigation,
-                  GuardedCore& core, GuardedPlanner& planner);
+                  const std::string& local_frame, std::uint64_t seed,
+                  const navigation::NavigationParams& navigation, GuardedCore& core,
+                  GuardedPlanner& planner);
   ~PlannerServices();
 
  private:
@@ -45,10 +46,14 @@ class PlannerServices {
   bool save(Save::Request& request, Save::Response& response);
   bool load(Load::Request& request, Load::Response& response);
 
+  [[nodiscard]] mission::Answer setZones(MissionCore& core, const SetNoGoZones::Request& request,
+                                         const std::vector<NoGoZone>& zones) const;
+
   /// The draws of the next ~plan or ~go_to.
   [[nodiscard]] Rng nextRng(const char* service);
 
   std::string world_frame_;
+  std::string local_frame_;
   navigation::NavigationParams navigation_;
   Rng rng_;
   int calls_ = 0;

@@ -16,12 +16,14 @@ namespace spelunk::bridge {
 /// how many so far, latched).
 class WalkerOutputs {
  public:
-  WalkerOutputs(::ros::NodeHandle& node, const std::string& world_frame);
+  /// `frame`: the frame id of the simulator's frame.
+  WalkerOutputs(::ros::NodeHandle& node, const std::string& frame);
 
-  void publish(const sim::Simulator& simulator);
+  /// `stamp`: the ROS time of the simulator's present time.
+  void publish(const sim::Simulator& simulator, const ::ros::Time& stamp);
 
  private:
-  void publishFeet(const sim::Simulator& simulator);
+  void publishFeet(const sim::Simulator& simulator, const ::ros::Time& stamp);
   void publishCounts(const sim::Simulator& simulator);
 
   std::string frame_;

@@ -8,8 +8,8 @@
 
 namespace spelunk::sim {
 
-/// "(x, y, z)" for messages.
-[[nodiscard]] std::string textOf(const Eigen::Vector3d& position);
+/// "(x, y, z)" for messages, in the frame of the mesh file.
+[[nodiscard]] std::string textOf(const Eigen::Vector3d& position, const WorldMesh& mesh);
 
 /// Throws OutsideError if `start` is not finite or outside the mesh's bounds.
 void requireInside(const WorldMesh& mesh, const Pose& start);

@@ -1,0 +1,30 @@
+#include "spelunk/common/local_frame.h"
+
+#include <algorithm>
+
+#include "spelunk/common/contract.h"
+
+namespace spelunk {
+namespace {
+
+constexpr double kStep_m = 100.0;
+constexpr double kWrittenParts = 1e6;  ///< Of a metre.
+
+}  // namespace
+
+LocalFrame LocalFrame::around(const Eigen::Vector3d& first, double reach_m, double range_m) {
+  require(first.allFinite(), "LocalFrame::around: the first place is not finite");
+  const double farthest_m = first.lpNorm<Eigen::Infinity>() + reach_m;
+  if (farthest_m <= std::min(range_m, kExact_m)) return {};
+  const Eigen::Vector3d origin = (first / kStep_m).array().round() * kStep_m;
+  return LocalFrame(origin + Eigen::Vector3d::Zero());  // -0 becomes +0
+}
+
+Eigen::Vector3d LocalFrame::written(const Eigen::Vector3d& point) const {
+  if (isCallers()) return point;
+  return ((point - origin_) * kWrittenParts).array().round() / kWrittenParts;
+}
+
+Pose LocalFrame::written(const Pose& pose) const { return {written(pose.position), pose.yaw}; }
+
+}  // namespace spelunk
