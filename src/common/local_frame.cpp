@@ -1,6 +1,7 @@
 #include "spelunk/common/local_frame.h"
 
 #include <algorithm>
+#include <cstdio>
 
 #include "spelunk/common/contract.h"
 
@@ -23,6 +24,15 @@ LocalFrame LocalFrame::around(const Eigen::Vector3d& first, double reach_m, doub
 Eigen::Vector3d LocalFrame::written(const Eigen::Vector3d& point) const {
   if (isCallers()) return point;
   return ((point - origin_) * kWrittenParts).array().round() / kWrittenParts;
+}
+
+std::string sayingOf(const LocalFrame& frame) {
+  if (frame.isCallers()) return "";
+  char text[160];
+  std::snprintf(text, sizeof text,
+                "far from 0: the map works around an origin of its own, x %.0f, y %.0f, z %.0f m",
+                frame.origin().x(), frame.origin().y(), frame.origin().z());
+  return text;
 }
 
 Pose LocalFrame::written(const Pose& pose) const { return {written(pose.position), pose.yaw}; }

@@ -160,6 +160,8 @@ int fly(const Options& options, bool quiet) {
       spelunk::evaluation::surroundingsOf(options.start, loaded.config.robot, loaded.config.map,
                                           options.time_limit_s));
   logToTerminal(quiet, mesh.frame);
+  if (const std::string text = spelunk::sayingOf(mesh.frame); !text.empty())
+    spelunk::log(spelunk::LogLevel::kInfo, text);
   spelunk::evaluation::RunSetup setup;
   setup.robot = loaded.config.robot;
   setup.sim = loaded.sim;

@@ -5,6 +5,7 @@
 
 #include "mail.h"
 #include "spelunk/common/contract.h"
+#include "spelunk/common/log.h"
 #include "spelunk/common/stopwatch.h"
 
 namespace spelunk::evaluation {
@@ -16,6 +17,7 @@ constexpr double kClearanceLimit_m = 5.0;
 constexpr double kRateWindow_s = 10.0;
 constexpr double kOutOfEndurance_s = 0.05;
 constexpr double kStandstill_mps = 0.1;
+constexpr double kSaidAgain_s = 60.0;
 
 }  // namespace
 
@@ -66,6 +68,7 @@ struct MissionRun::Impl {
   Mail<Scan> scans;
   Mail<mission::PlanOutcome> outcomes;
   Rng losses;
+  Throttle said{kSaidAgain_s};
   RunRecord record;
   std::int64_t ticks = 0;
   double started_s = 0.0;
@@ -84,7 +87,9 @@ void MissionRun::Impl::sense() {
     if (!getsLost()) scans.send(scan.scan, now());
   }
   for (const Scan& scan : scans.take(now())) {
-    mission.onScan(scan);
+    const map::MapUpdate update = mission.onScan(scan);
+    if (update.dropped_far > 0 && said.allows("map range", now()))
+      log(LogLevel::kWarn, map::beyondKeysText(update, setup.map));
     record.map_update_ms.push_back(mission.status().last_map_update_ms);
   }
   mission.onOdometry(simulator.odometry());

@@ -1,6 +1,7 @@
 #include "spelunk/map/occupancy_map.h"
 
 #include <cmath>
+#include <cstdio>
 
 #include "block_map.h"
 #include "frozen_blocks.h"
@@ -18,6 +19,16 @@ constexpr double kFaceTolerance = 1e-4;  // a box does not touch what it overlap
 }  // namespace
 
 double keyRange(const MapParams& params) { return keyLimit(params.resolution_m); }
+
+std::string beyondKeysText(const MapUpdate& update, const MapParams& params) {
+  char text[250];
+  std::snprintf(text, sizeof text,
+                "%d points of a scan lie more than %.0f m from the map's origin and cannot be "
+                "mapped: voxels of %.2f m have no keys there; raise map.resolution_m, or begin the "
+                "mission nearer to where it explores",
+                update.dropped_far, keyRange(params), params.resolution_m);
+  return text;
+}
 
 struct OccupancyMap::Impl {
   explicit Impl(const MapParams& map_params)

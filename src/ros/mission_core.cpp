@@ -19,6 +19,7 @@ void place(MissionCore& core, const LocalFrame& frame) {
   core.is_placed = true;
   core.frame = frame;
   logToRos(frame);
+  if (const std::string text = sayingOf(frame); !text.empty()) log(LogLevel::kInfo, text);
 }
 
 }  // namespace

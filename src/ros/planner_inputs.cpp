@@ -158,7 +158,10 @@ void PlannerInputs::enter(const PendingClouds::Item& item) {
       if (sensor.name == frame) scan.sensor = sensor.name;
     sensors_.heard(frame, missionTime(c, ::ros::Time::now()));
     scan.stamp_s = c.clock.toMission(item.cloud->header.stamp);
-    c.mission.onScan(scan);
+    const map::MapUpdate update = c.mission.onScan(scan);
+    if (update.dropped_far > 0)
+      c.watch.report("map range", map::beyondKeysText(update, c.mission.map().params()),
+                     missionTime(c, ::ros::Time::now()));
   });
 }
 

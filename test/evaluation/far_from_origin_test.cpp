@@ -45,6 +45,13 @@ std::string writeRoom(const TemporaryFolder& folder, const Eigen::Vector3d& by) 
   return folder.write("room.obj", text);
 }
 
+map::MapParams mapParams() {
+  map::MapParams params;
+  params.resolution_m = 0.15;
+  params.range_max_m = 8.0;
+  return params;
+}
+
 RunSetup setupFor(const sim::WorldMesh& mesh) {
   RunSetup setup;
   SensorModel sensor;
@@ -53,8 +60,7 @@ RunSetup setupFor(const sim::WorldMesh& mesh) {
   sensor.range_max_m = 8.0;
   sensor.gain_range_m = 8.0;
   setup.robot.sensor_models = {sensor};
-  setup.map.resolution_m = 0.15;
-  setup.map.range_max_m = 8.0;
+  setup.map = mapParams();
   setup.start = *mesh.start;
   setup.time_limit_s = 40.0;
   setup.seed = 3;
@@ -67,7 +73,7 @@ RunRecord fly(const Eigen::Vector3d& by, const std::string& out, std::vector<GoT
   const TemporaryFolder folder;
   sim::Surroundings around;
   around.reach_m = 100.0;
-  around.range_m = map::keyRange(map::MapParams{});
+  around.range_m = map::keyRange(mapParams());
   const sim::WorldMesh mesh = sim::loadWorldMesh(writeRoom(folder, by), around);
   RunSetup setup = setupFor(mesh);
   for (GoToLeg& leg : legs) leg.target = mesh.frame.written(Eigen::Vector3d(leg.target + by));
@@ -135,9 +141,7 @@ TEST(FarFromOrigin, MapFileSaysWhereItsOriginLies) {
   EXPECT_NE(map.find("# origin 467000 5420000 300 m"), std::string::npos) << map.substr(0, 200);
   const auto summary = nlohmann::json::parse(textOf(out.at("there/summary.json")));
   EXPECT_EQ(summary["map_origin_m"], nlohmann::json({467000.0, 5420000.0, 300.0}));
-  map::MapParams params;
-  params.resolution_m = 0.15;
-  map::OccupancyMap loaded(params);
+  map::OccupancyMap loaded(mapParams());
   loaded.load(out.at("there/map.bt"));
   EXPECT_GT(loaded.freeze()->occupiedVoxels(), 1000U);
 }
@@ -151,8 +155,9 @@ TEST(FarFromOrigin, PointsAskedForAndSpokenOfAreTheCallers) {
   const auto leg = nlohmann::json::parse(textOf(out.at("there/summary.json")))["legs"][0];
   EXPECT_EQ(leg["target_m"], nlohmann::json({467001.8, 5420000.0, 301.5}));
   EXPECT_NE(leg["outcome"], "reached");
-  if (leg.contains("nearest_reachable_m"))
+  if (leg.contains("nearest_reachable_m")) {
     EXPECT_NEAR(leg["nearest_reachable_m"][1].get<double>(), 5420000.0, 10.0);
+  }
 }
 
 TEST(FarFromOrigin, StartInTheWallIsNamedInTheCallersFrame) {

@@ -35,8 +35,13 @@ class LogLines {
 void expectExact(const WorldMesh& mesh) {
   EXPECT_EQ(mesh.frame.origin(), kUtm);
   ASSERT_EQ(mesh.vertices.size(), 3U);
-  EXPECT_EQ(mesh.vertices[1], Eigen::Vector3f(4.125F, 0.0F, 0.0F));
-  EXPECT_EQ(mesh.vertices[2], Eigen::Vector3f(0.0F, 2.3F, 1.7F));
+  ASSERT_EQ(mesh.triangles.size(), 1U);
+  const auto corner = [&mesh](int k) {
+    return mesh.vertices[static_cast<std::size_t>(mesh.triangles[0][k])];
+  };
+  EXPECT_EQ(corner(0), Eigen::Vector3f(0.0F, 0.0F, 0.0F));
+  EXPECT_EQ(corner(1), Eigen::Vector3f(4.125F, 0.0F, 0.0F));
+  EXPECT_EQ(corner(2), Eigen::Vector3f(0.0F, 2.3F, 1.7F));
   ASSERT_TRUE(mesh.start);
   EXPECT_EQ(mesh.start->position, Eigen::Vector3d(2.3, 0.7, 1.1));
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <string>
 #include <utility>
 
 #include "spelunk/common/moved.h"
@@ -49,5 +50,8 @@ class LocalFrame {
  private:
   Eigen::Vector3d origin_ = Eigen::Vector3d::Zero();
 };
+
+/// What people are told of a frame that is not their own; empty for one that is.
+[[nodiscard]] std::string sayingOf(const LocalFrame& frame);
 
 }  // namespace spelunk

@@ -17,7 +17,7 @@ struct ReportHeader {
   std::uint64_t seed = 1;
   double time_limit_s = 0.0;
   double reachable_volume_m3 = 0.0;
-  LocalFrame frame;  ///< The record's; the files are in its caller's.
+  LocalFrame frame{};  ///< The record's; the files are in its caller's.
 };
 
 /// Median, 95th percentile and maximum; zeros for no values.

@@ -61,6 +61,9 @@ struct MapUpdate {
   AxisAlignedBox changed;  ///< Around all voxels whose status changed; may be empty.
 };
 
+/// What to do about points of a scan that no key reaches.
+[[nodiscard]] std::string beyondKeysText(const MapUpdate& update, const MapParams& params);
+
 /// Probabilistic occupancy map with the semantics of OctoMap (Hornung et al. 2013): hit and miss
 /// log-odds, clamping, occupied wins over free within a scan. Kept as a hash of 8x8x8 blocks; the
 /// OcTree is derived from it and identical to what OctoMap itself would hold.
