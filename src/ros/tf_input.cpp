@@ -44,17 +44,32 @@ TfInput::~TfInput() { spinner_.stop(); }
 void TfInput::take(const TfEvent& event, Lasting lasting) {
   const std::string sender = event.getPublisherName();
   for (const geometry_msgs::TransformStamped& transform : event.getConstMessage()->transforms) {
+    if (lasting == Lasting::kMoment) {
+      sayIfFromTwo(transform.child_frame_id, sender);
+      if (isOutOfTurn(transform)) continue;
+    }
     try {
       buffer_.setTransform(transform, sender, lasting == Lasting::kForEver);
     } catch (const tf2::TransformException&) {
-      continue;  // the buffer itself says what is wrong with it
+      // The buffer itself says what is wrong with it.
     }
-    if (lasting == Lasting::kForEver) continue;
-    const auto both = senders_.heard("frame " + transform.child_frame_id, sender);
-    if (both)
-      report_(SentByTwo::kFrame,
-              twoFramesText(transform.child_frame_id, both->first, both->second));
   }
+}
+
+void TfInput::sayIfFromTwo(const std::string& frame, const std::string& sender) {
+  const auto both = senders_.heard("frame " + frame, sender);
+  if (!both) return;
+  newest_[frame] = ::ros::Time();
+  report_(SentByTwo::kFrame, twoFramesText(frame, both->first, both->second));
+}
+
+/// Stamps of two senders repeat and go back, and tf would say so for each message.
+bool TfInput::isOutOfTurn(const geometry_msgs::TransformStamped& transform) {
+  const auto newest = newest_.find(transform.child_frame_id);
+  if (newest == newest_.end()) return false;
+  if (transform.header.stamp <= newest->second) return true;
+  newest->second = transform.header.stamp;
+  return false;
 }
 
 void TfInput::onClock(const ::ros::MessageEvent<rosgraph_msgs::Clock const>& event) {

@@ -9,6 +9,7 @@
 #include <tf2_ros/buffer.h>
 
 #include <functional>
+#include <map>
 #include <string>
 
 #include "spelunk/ros/sender_watch.h"
@@ -33,11 +34,14 @@ class TfInput {
   enum class Lasting { kMoment, kForEver };
 
   void take(const TfEvent& event, Lasting lasting);
+  void sayIfFromTwo(const std::string& frame, const std::string& sender);
+  [[nodiscard]] bool isOutOfTurn(const geometry_msgs::TransformStamped& transform);
   void onClock(const ::ros::MessageEvent<rosgraph_msgs::Clock const>& event);
 
   tf2_ros::Buffer& buffer_;
   Report report_;
   SenderWatch senders_;
+  std::map<std::string, ::ros::Time> newest_;  ///< Of frames that two nodes send: newest stamp.
   ::ros::NodeHandle node_;
   ::ros::CallbackQueue queue_;
   ::ros::Subscriber tf_;
