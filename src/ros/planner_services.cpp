@@ -69,6 +69,7 @@ PlannerServices::PlannerServices(const ::ros::NodeHandle& private_node,
               node_.advertiseService("go_to", &Self::goTo, this),
               node_.advertiseService("set_bounds", &Self::setBounds, this),
               node_.advertiseService("set_no_go_zones", &Self::setZones, this),
+              node_.advertiseService("set_local_no_go_zones", &Self::setLocalZones, this),
               node_.advertiseService("save", &Self::save, this),
               node_.advertiseService("load", &Self::load, this)};
   spinner_.start();
@@ -195,28 +196,34 @@ bool PlannerServices::setZones(SetNoGoZones::Request& request, SetNoGoZones::Res
     const auto zones = fromMsg(request);
     response.reason = zones.problem;
     if (!zones.value) return;
-    answer(asked(core_, [&](MissionCore& core) { return setZones(core, request, *zones.value); }),
-           response, &SetNoGoZones::Response::reason);
+    mission::Answer given = asked(core_, [&](MissionCore& core) {
+      return core.mission.setZones(core.frame.toLocal(*zones.value));
+    });
+    const double error_m = cornerError(request);
+    if (given.accepted && error_m > kCornerError_m)
+      given.reason += "; their corners are only exact to " + toText(error_m) +
+                      " m, as they are 32-bit numbers: give them in the frame '" + local_frame_ +
+                      "' to ~set_local_no_go_zones";
+    answer(given, response, &SetNoGoZones::Response::reason);
   });
 }
 
-mission::Answer PlannerServices::setZones(MissionCore& core, const SetNoGoZones::Request& request,
-                                          const std::vector<NoGoZone>& zones) const {
-  const bool is_local = request.frame_id == local_frame_;
-  if (!is_local && !request.frame_id.empty() && request.frame_id != world_frame_)
-    return {false, "frame_id is '" + request.frame_id + "': give the zones in '" + world_frame_ +
-                       "' or '" + local_frame_ + "'"};
-  if (is_local && !core.is_placed)
-    return {false, "where '" + local_frame_ +
-                       "' lies is known with the first odometry: wait for it, or give the zones in "
-                       "'" +
-                       world_frame_ + "'"};
-  mission::Answer given = core.mission.setZones(is_local ? zones : core.frame.toLocal(zones));
-  const double error_m = is_local ? 0.0 : cornerError(request);
-  if (given.accepted && error_m > kCornerError_m)
-    given.reason += "; their corners are only exact to " + toText(error_m) +
-                    " m, as they are 32-bit numbers: give them in frame_id '" + local_frame_ + "'";
-  return given;
+bool PlannerServices::setLocalZones(SetNoGoZones::Request& request,
+                                    SetNoGoZones::Response& response) {
+  return answering(response, &SetNoGoZones::Response::reason, [&] {
+    const auto zones = fromMsg(request);
+    response.reason = zones.problem;
+    if (!zones.value) return;
+    answer(asked(core_,
+                 [&](MissionCore& core) {
+                   if (core.is_placed) return core.mission.setZones(*zones.value);
+                   return mission::Answer{
+                       false, "where '" + local_frame_ +
+                                  "' lies is known with the first odometry: wait for it, or use "
+                                  "~set_no_go_zones"};
+                 }),
+           response, &SetNoGoZones::Response::reason);
+  });
 }
 
 bool PlannerServices::save(Save::Request& request, Save::Response& response) {

@@ -75,7 +75,8 @@ class FarFromOrigin(unittest.TestCase):
         cls.services = {}
         for name, service_type in {"start": Trigger, "pause": Trigger, "plan": Plan, "go_to": GoTo,
                                    "set_bounds": SetBounds, "set_no_go_zones": SetNoGoZones,
-                                   "save": Save, "load": Load}.items():
+                                   "set_local_no_go_zones": SetNoGoZones, "save": Save,
+                                   "load": Load}.items():
             rospy.wait_for_service("planner_node/" + name, timeout=20.0)
             cls.services[name] = rospy.ServiceProxy("planner_node/" + name, service_type)
 
@@ -98,8 +99,8 @@ class FarFromOrigin(unittest.TestCase):
     def test_a_bounds_and_zones_may_be_given_before_the_robot_is_met(self):
         answer = self.services["set_bounds"](Point(*(UTM - 7.0)), Point(*(UTM + [9.0, 7.0, 7.0])))
         self.assertTrue(answer.success, answer.reason)
-        answer = self.services["set_no_go_zones"](["there"], [square(UTM, 1.0)], [0.0], [1.0],
-                                                  LOCAL)
+        answer = self.services["set_local_no_go_zones"](["there"], [square(UTM, 1.0)], [0.0],
+                                                        [1.0])
         self.assertFalse(answer.success)
         self.assertIn("first odometry", answer.reason)
 
@@ -119,16 +120,14 @@ class FarFromOrigin(unittest.TestCase):
 
     def test_c_zones_in_32_bit_numbers_of_utm_are_said_to_be_coarse(self):
         east = UTM + [5.0, 0.0, 0.0]
-        answer = self.services["set_no_go_zones"](["east"], [square(east, 1.0)], [0.0], [400.0], "")
+        answer = self.services["set_no_go_zones"](["east"], [square(east, 1.0)], [0.0], [400.0])
         self.assertTrue(answer.success, answer.reason)
         self.assertRegex(answer.reason, "only exact to 0.25 m.*" + LOCAL)
-        answer = self.services["set_no_go_zones"](["here"], [square(UTM - ORIGIN, 1.0)], [-100.0],
-                                                  [100.0], LOCAL)
+        answer = self.services["set_local_no_go_zones"](["here"], [square(UTM - ORIGIN, 1.0)],
+                                                        [-100.0], [100.0])
         self.assertFalse(answer.success)
         self.assertIn("holds the robot", answer.reason)
-        answer = self.services["set_no_go_zones"](["moon"], [square(UTM, 1.0)], [0.0], [1.0], "moon")
-        self.assertIn("'moon'", answer.reason)
-        self.assertTrue(self.services["set_no_go_zones"]([], [], [], [], "").success)
+        self.assertTrue(self.services["set_no_go_zones"]([], [], [], []).success)
 
     def test_d_path_graph_and_markers(self):
         answer = self.services["start"]()

@@ -2,7 +2,9 @@
 
 #include <Eigen/Core>
 
-#include "spelunk/mission/mission.h"
+#include "spelunk/mission/answer.h"
+#include "spelunk/mission/command.h"
+#include "spelunk/mission/mission_status.h"
 
 namespace spelunk::mission {
 

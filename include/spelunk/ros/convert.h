@@ -73,7 +73,6 @@ struct FromMsg {
                                           const Eigen::Isometry3d& T_world_frame);
 [[nodiscard]] FromMsg<AxisAlignedBox> boundsFromMsg(const geometry_msgs::Point& min,
                                                     const geometry_msgs::Point& max);
-/// In the request's own frame.
 [[nodiscard]] FromMsg<std::vector<NoGoZone>> fromMsg(const SetNoGoZones::Request& request);
 /// How far the corners of a request may lie from where they were meant to, because they are 32-bit
 /// numbers, metres.

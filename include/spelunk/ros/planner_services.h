@@ -43,11 +43,9 @@ class PlannerServices {
   bool goTo(GoTo::Request& request, GoTo::Response& response);
   bool setBounds(SetBounds::Request& request, SetBounds::Response& response);
   bool setZones(SetNoGoZones::Request& request, SetNoGoZones::Response& response);
+  bool setLocalZones(SetNoGoZones::Request& request, SetNoGoZones::Response& response);
   bool save(Save::Request& request, Save::Response& response);
   bool load(Load::Request& request, Load::Response& response);
-
-  [[nodiscard]] mission::Answer setZones(MissionCore& core, const SetNoGoZones::Request& request,
-                                         const std::vector<NoGoZone>& zones) const;
 
   /// The draws of the next ~plan or ~go_to.
   [[nodiscard]] Rng nextRng(const char* service);
