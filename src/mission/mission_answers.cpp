@@ -41,7 +41,7 @@ std::optional<Command> Mission::Impl::accept(const PlanOutcome& outcome, double 
 void Mission::Impl::acceptExploration(const RunningJob& job, const PlanOutcome& outcome) {
   if (outcome.plan.status != PlanStatus::kOk) return noteNoPlan(job, outcome.plan);
   const Verdict verdict = judge(job, outcome, basis, way_home, now);
-  if (!verdict.isAccepted()) return refuse(verdict);
+  if (!verdict.isAccepted()) return refuse(verdict, outcome.plan);
   flyProposal(verdict.path, verdict.rest, outcome);
 }
 
@@ -49,7 +49,7 @@ void Mission::Impl::acceptExploration(const RunningJob& job, const PlanOutcome& 
 void Mission::Impl::flyProposal(const Path& path, const Path& rest, const PlanOutcome& outcome) {
   fly(Leg(path, outcome.plan.kind, robot.box_m));
   way_home.noteRoute(rest, outcome.home);
-  desk.noteAccepted(now);
+  desk.noteAccepted(outcome.plan, now);
   reason = outcome.plan.reason;
 }
 
@@ -63,8 +63,8 @@ void Mission::Impl::acceptSecondLook(const RunningJob& job, const PlanOutcome& o
   reason = why;
 }
 
-void Mission::Impl::refuse(const Verdict& verdict) {
-  desk.noteRefused(verdict.outcome, verdict.why);
+void Mission::Impl::refuse(const Verdict& verdict, const planners::PlanResult& plan) {
+  desk.noteRefused(plan, verdict.outcome, verdict.why);
   if (flight.active()) {
     desk.retryInFlight(now);
     reason = verdict.why;
@@ -76,6 +76,7 @@ void Mission::Impl::refuse(const Verdict& verdict) {
 }
 
 void Mission::Impl::noteNoPlan(const RunningJob& job, const planners::PlanResult& plan) {
+  desk.noteNone(plan);
   if (!job.from_standstill) {
     desk.retryInFlight(now);
     if (flight.active()) desk.askBy(flight.active()->endTime() + kAskAfterEnd_s);

@@ -72,13 +72,16 @@ void Mission::Impl::hold(Event event, const std::string& why) {
 }
 
 void Mission::Impl::turnHome(Event event, Task before, const std::string& why) {
-  const bool may_afford_more = event == Event::kEnduranceLow && before == Task::kExplore;
+  // What was too far may come into reach on the way, and what could not be reached may be seen.
+  const bool may_find_more =
+      before == Task::kExplore && (event == Event::kEnduranceLow || event == Event::kNoPlanForLong);
+  turned_for = event;
   desk.drop();
-  desk.beginHome(may_afford_more ? PlanDesk::SecondLooks::kAllowed : PlanDesk::SecondLooks::kNone,
+  desk.beginHome(may_find_more ? PlanDesk::SecondLooks::kAllowed : PlanDesk::SecondLooks::kNone,
                  now);
   end_reason = why;
   show(MissionState::kHome, why);
-  if (inputs_ok) launchHome();
+  if (mayMove()) launchHome();
 }
 
 void Mission::Impl::launchHome() {

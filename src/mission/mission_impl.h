@@ -65,6 +65,7 @@ struct Mission::Impl {
   void checkGround();
   void backOff();
   void checkEndurance();
+  void checkCause();
   void stepHome();
   void stepPoint();
   void askForPlan();
@@ -76,13 +77,14 @@ struct Mission::Impl {
   void acceptWayHome(const RunningJob& job, const planners::PlanResult& home);
   void acceptStep(const PointStep& step);
   void flyProposal(const Path& path, const Path& rest, const PlanOutcome& outcome);
-  void refuse(const Verdict& verdict);
+  void refuse(const Verdict& verdict, const planners::PlanResult& plan);
   void noteNoPlan(const RunningJob& job, const planners::PlanResult& plan);
   void noteFailure(const std::string& why);
   void noteNoWayHome(const RunningJob& job, const planners::PlanResult& home);
 
   [[nodiscard]] MissionStatus status() const;
   [[nodiscard]] bool isAtRest() const { return flight.isAtRest(watch.state().velocity, now); }
+  [[nodiscard]] bool mayMove() const { return inputs_ok && now >= resume_s; }
   /// A path of the robot's box as one of its base.
   [[nodiscard]] Path ofBase(Path path) const;
   [[nodiscard]] static std::string withNumber(const char* format, double value);
@@ -105,7 +107,10 @@ struct Mission::Impl {
   // --- State of the mission itself.
   double now = 0.0;  ///< Mission time of the newest tick or answer.
   Task task = Task::kIdle;
-  bool inputs_ok = false;  ///< At the last tick.
+  bool inputs_ok = false;                ///< At the last tick.
+  double resume_s = 0.0;                 ///< Until then it holds, for people to see why.
+  Event turned_for = Event::kHomeAsked;  ///< Why it goes home.
+  double next_cause_check_s = 0.0;
   // What there is to see of it.
   MissionState shown = MissionState::kIdle;
   std::string reason;

@@ -170,6 +170,7 @@ void Mission::Impl::takeUp(const MissionRecord& record) {
   space.zones().restore(record.bounds, record.given_zones, record.marked_zones);
   if (record.trail.empty()) return;
   endurance.takeUp(record.remaining_s);
+  desk.forgetReports();
   way_home.takeUp(record.trail, record.marked_zones);
 }
 

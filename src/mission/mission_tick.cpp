@@ -9,6 +9,11 @@ constexpr double kRefreshPeriod_s = 0.5;  // of the way home: a robot gets a met
 constexpr double kInputRetry_s = 0.5;
 constexpr double kLookAgain_s = 1.0;  // some scans more of the ground ahead
 constexpr double kHomeRetry_s = 1.0;
+/// Before an ignored path is sent again: people need some time to see why it is.
+constexpr double kSendAgain_s = 2.0;
+constexpr const char* kIgnored =
+    "the robot does not follow its path: is the controller connected to `path` or "
+    "`command/trajectory`?";
 
 }  // namespace
 
@@ -18,6 +23,7 @@ std::optional<Command> Mission::Impl::tick(double now_s) {
   updateEndurance();  // what is left decides everything below
   updateWayHome();    // and what the way home takes of it; also at rest, for people to see
   if (!isRunning(task)) return flight.takeCommand();
+  // Each of the following steps may stop the robot; what is below it then sees it at rest.
   checkInputs();     // a robot that does not know where it is must not judge its path
   checkPath();       // a robot off its path is not where the checks of the path look
   checkArrival();    // a path at its end has nothing ahead to be checked
@@ -25,6 +31,7 @@ std::optional<Command> Mission::Impl::tick(double now_s) {
   checkGround();     // ... nor before bad ground, which asks the robot to back off
   backOff();         // before anything plans: plans from beside bad ground fail
   checkEndurance();  // after all stops: a stop changes the way home, and then home comes first
+  checkCause();      // the same for what the robot turned home for and is gone
   stepHome();        // before plans: a robot that is at home needs none
   stepPoint();       // the same for a flight to a point
   askForPlan();      // last: a plan begins from what was decided above
@@ -56,6 +63,17 @@ void Mission::Impl::checkInputs() {
 }
 
 void Mission::Impl::checkPath() {
+  if (flight.isIgnored(watch.pose(), now)) {
+    say(LogLevel::kWarn, "ignored", kIgnored);
+    happens(Event::kPathIgnored, kIgnored);
+    resume_s = now + kSendAgain_s;
+    return;
+  }
+  if (flight.isOverdue(watch.pose(), now)) {
+    ++replans_deviation;
+    return happens(Event::kLeftPath,
+                   "the robot did not come to the end of its path: planning anew");
+  }
   if (const auto gap_m = flight.gapOffPath(watch.pose(), now)) {
     ++replans_deviation;
     return happens(
@@ -73,7 +91,7 @@ void Mission::Impl::checkPath() {
 
 void Mission::Impl::checkArrival() {
   if (!flight.hasArrived(watch.pose(), now)) return;
-  if (!flight.goesHome()) desk.noteReached();
+  if (!flight.goesHome()) desk.noteOutcome(planners::PathOutcome::kReached, "");
   flight.drop();
   desk.askBy(now);
 }
@@ -109,19 +127,27 @@ void Mission::Impl::checkEndurance() {
     happens(Event::kEnduranceLow, "home by endurance: the way home takes what is left");
 }
 
+/// A way home that was lost and is known again, not only by the way that is being flown.
+void Mission::Impl::checkCause() {
+  if (task != Task::kHome || turned_for != Event::kWayHomeLost || now < next_cause_check_s) return;
+  next_cause_check_s = now + kRefreshPeriod_s;
+  if (!inputs_ok || !way_home.refresh(now) || way_home.margin_s() <= 0.0) return;
+  happens(Event::kWayHomeFound, "a way home is known again: going on");
+}
+
 void Mission::Impl::stepHome() {
-  if (task != Task::kHome || flight.active() || !inputs_ok) return;
+  if (task != Task::kHome || flight.active() || !mayMove()) return;
   if (way_home.isAtHome()) return happens(Event::kAtHome, end_reason);
   const double pause_s = shown == MissionState::kHold ? kHomeRetry_s : 0.0;
   if (isAtRest() && now >= flight.holdsSince() + pause_s) launchHome();
 }
 
 void Mission::Impl::stepPoint() {
-  if (task == Task::kPoint && !desk.isBusy() && inputs_ok) acceptStep(point.step(way_home, now));
+  if (task == Task::kPoint && !desk.isBusy() && mayMove()) acceptStep(point.step(way_home, now));
 }
 
 void Mission::Impl::askForPlan() {
-  if (!inputs_ok || ground.isToBackOff()) return;
+  if (!mayMove() || ground.isToBackOff()) return;
   if (desk.wantsPlan(task, way_home, now)) desk.ask(task, way_home, now);
 }
 

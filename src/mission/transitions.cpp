@@ -28,6 +28,7 @@ const std::vector<Rule>& rules() {
       {T::kExplore, E::kFell, T::kStopped, A::kHalt},
       {T::kExplore, E::kInputsFailed, T::kExplore, A::kHold},
       {T::kExplore, E::kLeftPath, T::kExplore, A::kHold},
+      {T::kExplore, E::kPathIgnored, T::kExplore, A::kHold},
       {T::kExplore, E::kObstacleAhead, T::kExplore, A::kHold},
       {T::kExplore, E::kGroundUnseen, T::kExplore, A::kHold},
       {T::kExplore, E::kGroundBad, T::kExplore, A::kBackOff},
@@ -45,6 +46,7 @@ const std::vector<Rule>& rules() {
       {T::kPoint, E::kFell, T::kStopped, A::kHalt},
       {T::kPoint, E::kInputsFailed, T::kPoint, A::kHold},
       {T::kPoint, E::kLeftPath, T::kPoint, A::kHold},
+      {T::kPoint, E::kPathIgnored, T::kPoint, A::kHold},
       {T::kPoint, E::kObstacleAhead, T::kPoint, A::kHold},
       {T::kPoint, E::kGroundUnseen, T::kPoint, A::kHold},
       {T::kPoint, E::kGroundBad, T::kPoint, A::kBackOff},
@@ -52,7 +54,9 @@ const std::vector<Rule>& rules() {
       {T::kPoint, E::kPointReached, T::kPaused, A::kHold},
       {T::kPoint, E::kPointUnreachable, T::kPaused, A::kHold},
 
-      // On the way home nothing but home matters; what came into reach may be explored again.
+      // On the way home nothing but home matters; what came into reach may be explored again, and
+      // so
+      // may all when what the robot turned round for is gone.
       {T::kHome, E::kStartAsked, T::kExplore, A::kExplore},
       {T::kHome, E::kPauseAsked, T::kPaused, A::kHold},
       {T::kHome, E::kHomeAsked, T::kHome, A::kTurnHome},
@@ -60,10 +64,12 @@ const std::vector<Rule>& rules() {
       {T::kHome, E::kFell, T::kStopped, A::kHalt},
       {T::kHome, E::kInputsFailed, T::kHome, A::kHold},
       {T::kHome, E::kLeftPath, T::kHome, A::kHold},
+      {T::kHome, E::kPathIgnored, T::kHome, A::kHold},
       {T::kHome, E::kObstacleAhead, T::kHome, A::kHold},
       {T::kHome, E::kGroundUnseen, T::kHome, A::kHold},
       {T::kHome, E::kGroundBad, T::kHome, A::kBackOff},
       {T::kHome, E::kAffordableAgain, T::kExplore, A::kGoOn},
+      {T::kHome, E::kWayHomeFound, T::kExplore, A::kExplore},
       {T::kHome, E::kWayHomeBlocked, T::kHome, A::kHold},
       {T::kHome, E::kAtHome, T::kDone, A::kFinish},
 
@@ -110,6 +116,8 @@ bool isRunning(Task task) {
 
 planners::PathOutcome outcomeOf(Event event) {
   switch (event) {
+    case Event::kPathIgnored:
+      return planners::PathOutcome::kNone;  // nobody has flown it
     case Event::kPauseAsked:
       return planners::PathOutcome::kReplaced;
     case Event::kPointReached:

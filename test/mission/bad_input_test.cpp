@@ -137,6 +137,20 @@ TEST_F(BadInput, SilentOdometryAndScansHoldTheRobotAndSaySo) {
   }
 }
 
+/// Of sensors that are slow, or whose scans are seldom mapped.
+TEST_F(BadInput, SlowSensorsDoNotHoldTheRobotForEver) {
+  for (const bool is_slow : {true, false}) {
+    RobotModel robot = test::smallRobot();
+    if (is_slow) robot.sensor_models[0].rate_hz = 0.4;
+    if (!is_slow) robot.sensor_models[0].mapping_period_s = 4.0;
+    ScriptedFlight flight(test::corridorWorld(60.0), kStart, planner_, {}, 1, robot);
+    if (is_slow) flight.scanEvery(2.5);
+    ASSERT_TRUE(flight.start().accepted);
+    flight.flyFor(40.0);
+    EXPECT_GT(flight.mission().status().distance_m, 5.0) << flight.mission().status().reason;
+  }
+}
+
 TEST_F(BadInput, OddScansAreCountedOutNeverThrown) {
   ScriptedFlight flight(test::corridorWorld(30.0), kStart, planner_);
   ASSERT_TRUE(flight.start().accepted);

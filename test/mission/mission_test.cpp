@@ -343,5 +343,63 @@ TEST_F(CorridorMission, EnduranceIsKeptOverSavingAndLoading) {
   EXPECT_GT(at_home.mission().status().remaining_s, left_s + 5.0) << "a robot at home can recharge";
 }
 
+TEST_F(CorridorMission, PathThatNobodyCarriesOutIsNeverTakenForExplored) {
+  ScriptedFlight flight(test::corridorWorld(30.0), kStart, planner_);
+  flight.ignoreCommands();
+  ASSERT_TRUE(flight.start().accepted);
+  bool said = false;
+  for (int k = 0; k < 400; ++k) {
+    flight.step();
+    said = said ||
+           flight.mission().status().reason.find("does not follow its path") != std::string::npos;
+    ASSERT_NE(flight.mission().status().state, MissionState::kDone)
+        << flight.mission().status().end_reason;
+  }
+  EXPECT_TRUE(said);
+  for (const planners::PathReport& report : planner_.reports)
+    EXPECT_TRUE(report.outcome == planners::PathOutcome::kNone ||
+                report.outcome == planners::PathOutcome::kReplaced)
+        << "nobody has flown there: " << report.reason;
+  flight.obeyCommands();
+  EXPECT_TRUE(flight.flyToTheEnd(200.0)) << flight.mission().status().reason;
+  EXPECT_GT(flight.mission().status().distance_m, 32.0);
+}
+
+TEST_F(CorridorMission, PathThatNobodyCarriesOutEndsNoWayHomeAndNoFlightToAPoint) {
+  ScriptedFlight flight(test::corridorWorld(30.0), kStart, planner_);
+  ASSERT_TRUE(flight.start().accepted);
+  flight.flyFor(5.0);
+  ASSERT_TRUE(flight.mission().home().accepted);
+  flight.flyFor(1.0);
+  ASSERT_TRUE(flight.mission().pause().accepted);
+  flight.flyFor(4.0);
+  flight.ignoreCommands();
+  ASSERT_TRUE(flight.mission().home().accepted);
+  flight.flyFor(20.0);
+  EXPECT_EQ(flight.mission().status().end_reason, "home as asked");
+  EXPECT_NE(flight.mission().status().state, MissionState::kDone);
+  flight.obeyCommands();
+  EXPECT_TRUE(flight.flyToTheEnd(90.0)) << flight.mission().status().reason;
+}
+
+TEST_F(CorridorMission, LookingAtPlansInBetweenChangesNothing) {
+  std::vector<double> ends;
+  for (const bool looks : {false, true}) {
+    ScriptedFlight flight(test::corridorWorld(30.0), kStart, planner_);
+    ASSERT_TRUE(flight.start().accepted);
+    while (flight.mission().status().state != MissionState::kDone && flight.now() < 120.0) {
+      flight.step();
+      if (!looks) continue;
+      const auto request = flight.mission().requestHere(flight.now());
+      ASSERT_TRUE(request);
+      static_cast<void>(planner_.plan(*request));
+    }
+    ends.push_back(flight.now());
+    ends.push_back(flight.mission().status().distance_m);
+  }
+  EXPECT_EQ(ends[0], ends[2]);
+  EXPECT_EQ(ends[1], ends[3]);
+}
+
 }  // namespace
 }  // namespace spelunk::mission

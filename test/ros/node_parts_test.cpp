@@ -280,7 +280,6 @@ class FakePlanner : public planners::ExplorationPlanner {
   explicit FakePlanner(bool fails) : fails_(fails) {}
   [[nodiscard]] planners::PlannerGraph graph() const override { return {}; }
   void restore(const planners::PlannerGraph& /*graph*/) override {}
-  void reset() override {}
 
  private:
   planners::PlanResult doPlan(const planners::PlanRequest& /*request*/) override {
@@ -293,6 +292,7 @@ class FakePlanner : public planners::ExplorationPlanner {
   planners::PlanResult doPlanHome(const planners::PlanRequest& request) override {
     return doPlan(request);
   }
+  void doReport(const planners::PathReport& /*report*/) override {}
   bool fails_;
 };
 

@@ -30,6 +30,7 @@ enum class Event {
   kFell,
   kInputsFailed,
   kLeftPath,
+  kPathIgnored,  ///< The robot does not move though it is sent off.
   kObstacleAhead,
   kGroundUnseen,
   kGroundBad,
@@ -37,6 +38,7 @@ enum class Event {
   kEnduranceLow,
   kAffordableAgain,
   kWayHomeLost,     ///< No way home is known any more.
+  kWayHomeFound,    ///< One is known again.
   kWayHomeBlocked,  ///< None of the known ways can be flown now.
   kAtHome,
   // Plans.

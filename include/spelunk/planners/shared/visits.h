@@ -25,8 +25,9 @@ class Visits {
  public:
   void expect(const Visit& visit);
 
-  /// The targets the robot has come by since they were chosen; they are expected no longer.
-  [[nodiscard]] std::vector<Visit> takeMade(const PlanRequest& request);
+  /// The targets the robot has come by since they were chosen; they are expected no longer. `last`:
+  /// what became of the path that was reported last.
+  [[nodiscard]] std::vector<Visit> takeMade(const PlanRequest& request, PathOutcome last);
 
  private:
   std::vector<Visit> expected_;
