@@ -215,6 +215,7 @@ TEST_P(EveryPlanner, FindsItsWayHomeFromTheEndOfItsPath) {
   const PlanResult out = planner_->plan(request_);
   ASSERT_EQ(out.status, PlanStatus::kOk);
   request_.pose = out.path.back();
+  request_.after = out.memory;
   const PlanResult back = planner_->planHome(request_);
   expectFreePathFromPose(back);
   EXPECT_EQ(back.kind, PathKind::kHome);
