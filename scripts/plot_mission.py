@@ -8,9 +8,11 @@ Reads summary.json, timeline.csv and .plan_view of DIR, which the mission execut
 """
 import csv
 import json
+import logging
 import pathlib
 import sys
 
+logging.getLogger("matplotlib").setLevel(logging.ERROR)  # It works without a folder for its cache.
 import matplotlib
 
 matplotlib.use("Agg")
