@@ -193,7 +193,7 @@ def draw_volume(axes, times, states, summary):
         axes.axhline(reachable, color=INK, lw=1.2, ls=(0, (5, 3)))
         share = 100.0 * volume[-1] / reachable
         label = f"reachable {reachable:,.0f} m³, {share:.0f} % seen"
-        axes.annotate(label, (seconds[-1], min(reachable, 0.93 * top)), (-4, 4), fontsize=9.5,
+        axes.annotate(label, (max(seconds[-1], 1.0), min(reachable, 0.93 * top)), (-4, 4), fontsize=9.5,
                       textcoords="offset points", ha="right", va="bottom")
     axes.set_ylim(0, max(top, 1.0))
     axes.set_ylabel("explored volume [m³]")

@@ -24,7 +24,8 @@ import re
 import yaml
 
 TOP_KEYS = {"title", "parameter_sets", "groups", "meshes", "references"}
-GROUP_KEYS = {"worlds", "robots", "planners", "parameter_sets", "seeds", "time_limits_s", "wall_limit_s", "best_possible"}
+GROUP_KEYS = {"worlds", "robots", "planners", "parameter_sets", "seeds", "time_limits_s", "wall_limit_s",
+              "best_possible"}
 WHAT_IS_POSSIBLE = ("robot.", "sensor.")  # settings of these; others change how it is explored
 REFERENCE_KEYS = {"world", "robot", "time_limit_s", "label", "vertices", "edges", "navigation_s",
                   "exploration_s", "volume_m3"}
