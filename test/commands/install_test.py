@@ -1,8 +1,10 @@
 """What is installed runs from there, without the source folder's files."""
+import os
+import re
 import subprocess
 import unittest
 
-from shell import BUILD, InFreshShell
+from shell import BUILD, LIMIT_S, InFreshShell
 
 PROGRAMS = ("benchmark", "best_possible", "mission", "planner_node", "sim_node",
             "robot_state_publisher.py")
@@ -11,9 +13,12 @@ PROGRAMS = ("benchmark", "best_possible", "mission", "planner_node", "sim_node",
 class Install(InFreshShell):
     def setUp(self):
         super().setUp()
-        self.prefix = self.folder / "opt"
-        subprocess.run(["cmake", "--install", BUILD, "--prefix", self.prefix], check=True,
-                       stdout=subprocess.DEVNULL, timeout=120)
+        # catkin writes its setup files to the prefix of the build, whatever `--prefix` says.
+        cache = (BUILD / "CMakeCache.txt").read_text()
+        prefix = re.search(r"(?m)^CMAKE_INSTALL_PREFIX:PATH=(.*)$", cache)[1]
+        self.prefix = self.folder / prefix.lstrip("/")
+        subprocess.run(["cmake", "--install", BUILD], check=True, stdout=subprocess.DEVNULL,
+                       timeout=LIMIT_S, env={**os.environ, "DESTDIR": str(self.folder)})
         self.setup = self.prefix / "setup.bash"
 
     def test_programs_run_from_where_they_are(self):
