@@ -1,8 +1,37 @@
 #include "spelunk/common/robot_model.h"
 
 #include <algorithm>
+#include <filesystem>
+#include <set>
+
+#include "spelunk/common/file_lookup.h"
 
 namespace spelunk {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string sensorFile(const std::string& sensor, const std::string& config_dir,
+                       const std::vector<std::string>& folders) {
+  if (looksLikePath(sensor)) return existingFile("sensor", sensor, folders);
+  std::vector<std::string> places{config_dir + "/sensors"};
+  places.insert(places.end(), folders.begin(), folders.end());
+  return existingFile("sensor", sensor + ".yaml", places);
+}
+
+SensorModel loadSensor(ParamTree& tree, const std::string& path) {
+  SensorModel sensor;
+  sensor.name = fs::path(path).stem().string();
+  ParamTree file;
+  file.addYamlFile(path);
+  file.read("sensor." + sensor.name, sensor);
+  file.requireClean();
+  tree.read("sensor." + sensor.name, sensor);
+  for (const std::string& problem : sensor.problems()) tree.addProblem(problem);
+  return sensor;
+}
+
+}  // namespace
 
 double longestRange(const RobotModel& robot) {
   double range = 0.0;
@@ -39,21 +68,19 @@ double brakingDistance(const RobotModel& robot, double speed_mps) {
          0.5 * speed_mps * speed_mps / robot.braking_deceleration_mps2;
 }
 
-RobotModel loadRobot(ParamTree& tree, const std::string& name, const std::string& config_dir) {
+RobotModel loadRobot(ParamTree& tree, const std::string& name, const std::string& config_dir,
+                     const std::vector<std::string>& folders) {
   RobotModel robot;
   robot.name = name;
   tree.read("robot", robot);
   for (const std::string& problem : robot.problems()) tree.addProblem(problem);
-  for (const std::string& sensor_name : robot.sensors) {
-    SensorModel sensor;
-    sensor.name = sensor_name;
-    ParamTree file;
-    file.addYamlFile(config_dir + "/sensors/" + sensor_name + ".yaml");
-    file.read("sensor." + sensor_name, sensor);
-    file.requireClean();
-    tree.read("sensor." + sensor_name, sensor);
-    for (const std::string& problem : sensor.problems()) tree.addProblem(problem);
-    robot.sensor_models.push_back(sensor);
+  std::set<std::string> names;
+  for (const std::string& given : robot.sensors) {
+    robot.sensor_models.push_back(loadSensor(tree, sensorFile(given, config_dir, folders)));
+    const std::string& sensor_name = robot.sensor_models.back().name;
+    if (!names.insert(sensor_name).second)
+      tree.addProblem("robot.sensors: two are called '" + sensor_name +
+                      "'; rename one of the files, parameters and frames go by their names");
   }
   return robot;
 }

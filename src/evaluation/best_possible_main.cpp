@@ -66,9 +66,10 @@ int main(int argc, char** argv) {
   app.option_defaults()->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
   Options options;
   app.add_option("--world", options.world, "name from worlds/ or path of a mesh");
-  app.add_option("--robot", options.robot, "name from config/robots");
+  app.add_option("--robot", options.robot, "name from config/robots or path of a file like those");
   app.add_option("--time-limit-s", options.time_limit_s, "the robot is home before this time")
-      ->check(CLI::Range(1.0, 1e6));
+      ->check(CLI::Range(1.0, 1e6))
+      ->check(spelunk::evaluation::whyNotFinite);
   app.add_option("--out", options.out, "folder for bound.csv, survey.json and survey_seen.bin");
   app.add_option("--start", options.start, "x,y,z,yaw; wins over the world's own");
   app.add_option("--set", options.assignments, "section.name=value, any parameter")->take_all();

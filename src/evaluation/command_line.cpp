@@ -19,6 +19,10 @@ std::optional<std::vector<double>> numbersIn(const std::string& text, std::size_
   return values.size() == count ? std::optional(values) : std::nullopt;
 }
 
+std::string whyNotFinite(const std::string& text) {
+  return numbersIn(text, 1) ? "" : "'" + text + "' is no finite number";
+}
+
 Pose startOf(const std::string& text, const std::string& world, const sim::WorldMesh& mesh) {
   if (text.empty()) {
     if (mesh.start) return *mesh.start;

@@ -13,6 +13,10 @@ namespace spelunk::evaluation {
 [[nodiscard]] std::optional<std::vector<double>> numbersIn(const std::string& text,
                                                            std::size_t count);
 
+/// Why a text is no finite number; empty if it is one. For options that only have a range: not a
+/// number lies in every range.
+[[nodiscard]] std::string whyNotFinite(const std::string& text);
+
 /// The start a program is told by "x,y,z,yaw", else the world's own. Throws OutsideError.
 [[nodiscard]] Pose startOf(const std::string& text, const std::string& world,
                            const sim::WorldMesh& mesh);

@@ -3,13 +3,18 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
+#include <csignal>
 #include <cstdio>
 #include <cstdlib>
+#include <cstring>
 #include <iostream>
+#include <limits>
 #include <optional>
 #include <sstream>
 
 #include "command_line.h"
+#include "folder_lock.h"
+#include "run_program.h"
 #include "spelunk/common/contract.h"
 #include "spelunk/common/log.h"
 #include "spelunk/common/pin_math.h"
@@ -29,7 +34,21 @@ using spelunk::OutsideError;
 
 constexpr int kExitStranded = 1;
 constexpr int kExitBadInput = 2;
+constexpr int kExitInterrupted = 130;
 constexpr int kProgressPeriod_s = 10;
+
+/// Set by the first Ctrl-C or SIGTERM of a flight, which then ends and is written; the second one
+/// ends the program.
+volatile std::sig_atomic_t interrupted_by = 0;
+
+void noteInterrupt(int number) { interrupted_by = number; }
+
+void catchInterrupts() {
+  struct sigaction action {};
+  action.sa_handler = noteInterrupt;
+  action.sa_flags = static_cast<int>(SA_RESETHAND);
+  for (const int number : {SIGINT, SIGTERM}) sigaction(number, &action, nullptr);
+}
 
 struct Options {
   std::string world = "long_wall";
@@ -57,10 +76,11 @@ Loaded load(const Options& options) {
   loaded.share_dir = spelunk::mission::shareDir();
   loaded.config = spelunk::mission::loadRunConfig(
       {loaded.share_dir, options.robot, options.planner, options.assignments});
-  loaded.sim = spelunk::sim::readSimParams(loaded.config.tree);
+  loaded.sim = spelunk::sim::readSimParams(loaded.config.tree, loaded.config.robot);
   loaded.config.tree.read("delays", loaded.delays);
-  loaded.planner = spelunk::planners::makePlanner(
-      options.planner, loaded.config.tree, loaded.config.robot, loaded.config.map.resolution_m);
+  loaded.planner =
+      spelunk::planners::makePlanner(loaded.config.planner, loaded.config.tree, loaded.config.robot,
+                                     loaded.config.map.resolution_m);
   loaded.config.tree.requireClean();
   return loaded;
 }
@@ -83,7 +103,7 @@ void listParams(const Options& options) {
   printTable(spelunk::describe("mission", loaded.config.mission));
   printTable(spelunk::describe("navigation", loaded.config.navigation));
   printTable(spelunk::describe("terrain", loaded.config.terrain));
-  printTable(spelunk::planners::describePlanner(options.planner, loaded.config.tree));
+  printTable(spelunk::planners::describePlanner(loaded.config.planner, loaded.config.tree));
   printTable(spelunk::describe("sim", loaded.sim));
   printTable(spelunk::describe("delays", loaded.delays));
 }
@@ -108,9 +128,15 @@ spelunk::evaluation::GoToLeg legFrom(const std::string& text,
   return leg;
 }
 
+/// Whether lines can be written over there.
+bool isTerminal() {
+  const char* kind = std::getenv("TERM");
+  return isatty(STDOUT_FILENO) != 0 && kind != nullptr && kind != "dumb"s;
+}
+
 /// Shows a line in place on a terminal, else one line every ten simulated seconds.
 void show(const spelunk::evaluation::Progress& progress) {
-  const bool terminal = isatty(STDOUT_FILENO) != 0;
+  const bool terminal = isTerminal();
   const auto second = static_cast<long>(progress.t_s + 0.5);
   if (!terminal && second % kProgressPeriod_s != 0) return;
   const auto& status = progress.status;
@@ -122,31 +148,28 @@ void show(const spelunk::evaluation::Progress& progress) {
 }
 
 void plot(const std::string& share_dir, const std::string& out) {
-  const std::string command =
-      "'" + share_dir + "/scripts/plot_mission.py' '" + out + "' >/dev/null";
-  if (std::system(command.c_str()) != 0)
+  if (spelunk::evaluation::runProgram({share_dir + "/scripts/plot_mission.py", out}) != 0)
     spelunk::log(spelunk::LogLevel::kWarn,
                  "no exploration.png: scripts/plot_mission.py says why (python3-matplotlib draws)");
 }
 
-void sayResult(const spelunk::evaluation::RunRecord& record, double reachable_m3,
-               const std::string& out) {
+void sayResult(const spelunk::evaluation::RunRecord& record, double reachable_m3) {
   std::printf(
       "\n%s\nexplored %.0f m3 of %.0f m3 reachable on %.0f m in %.0f s "
-      "(%.1f s of wall time); collisions %d; %s\nwritten to %s\n",
+      "(%.1f s of wall time); collisions %d; %s\n",
       record.outcome.c_str(), record.explored_volume_m3, reachable_m3, record.path_length_m,
       record.mission_time_s, record.wall_time_s, record.collisions,
       record.returned_home
           ? ("home with " + std::to_string(static_cast<int>(record.remaining_at_home_s)) +
              " s left")
                 .c_str()
-          : "NOT home",
-      out.c_str());
+          : "NOT home");
 }
 
 int fly(const Options& options, bool quiet) {
   Loaded loaded = load(options);
   spelunk::evaluation::requireWritable(options.out);
+  const spelunk::evaluation::FolderLock lock(options.out);
   const auto mesh = spelunk::sim::openWorld(options.world, loaded.share_dir + "/worlds",
                                             spelunk::sim::defaultCacheDir());
   spelunk::evaluation::RunSetup setup;
@@ -162,9 +185,13 @@ int fly(const Options& options, bool quiet) {
   for (const std::string& leg : options.go_to)
     setup.legs.push_back(legFrom(leg, loaded.config.navigation));
   spelunk::evaluation::MissionRun run(setup, mesh, *loaded.planner);
-  const auto record =
-      quiet ? run.fly() : run.fly([](const spelunk::evaluation::Progress& p) { show(p); });
+  catchInterrupts();
+  const auto record = run.fly([&](const spelunk::evaluation::Progress& progress) {
+    if (!quiet) show(progress);
+    if (interrupted_by != 0) run.stop("interrupted by "s + strsignal(interrupted_by));
+  });
   const auto reachable = spelunk::evaluation::reachableVolume(mesh, setup.start.position);
+  if (!quiet) sayResult(record, reachable.total_m3);
   spelunk::evaluation::writeReport(options.out,
                                    {options.planner, options.world, options.robot, options.seed,
                                     options.time_limit_s, reachable.total_m3},
@@ -172,7 +199,8 @@ int fly(const Options& options, bool quiet) {
   run.mission().map().save(options.out + "/map.bt");
   spelunk::evaluation::writePlanView(*run.mission().map().freeze(), options.out + "/.plan_view");
   plot(loaded.share_dir, options.out);
-  if (!quiet) sayResult(record, reachable.total_m3, options.out);
+  if (!quiet) std::printf("written to %s\n", options.out.c_str());
+  if (interrupted_by != 0 && !record.returned_home) return kExitInterrupted;
   return record.ended_as_it_may ? EXIT_SUCCESS : kExitStranded;
 }
 
@@ -180,17 +208,21 @@ int fly(const Options& options, bool quiet) {
 
 int main(int argc, char** argv) {
   spelunk::pinMathLibrary(argc, argv);
+  std::signal(SIGPIPE, SIG_IGN);  // Who reads the progress may go away; the mission goes on.
   CLI::App app{"Flies one exploration mission in lockstep with the simulator, without ROS"};
   app.option_defaults()->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
   Options options;
   bool list_params = false;
   bool quiet = false;
   app.add_option("--world", options.world, "name from worlds/ or path of a mesh");
-  app.add_option("--robot", options.robot, "name from config/robots");
-  app.add_option("--planner", options.planner, "exploration planner");
-  app.add_option("--seed", options.seed, "seed of the whole run");
+  app.add_option("--robot", options.robot, "name from config/robots or path of a file like those");
+  app.add_option("--planner", options.planner,
+                 "exploration planner, or path of a file with its section");
+  app.add_option("--seed", options.seed, "seed of the whole run")
+      ->check(CLI::Range(std::int64_t{0}, std::numeric_limits<std::int64_t>::max()));
   app.add_option("--time-limit-s", options.time_limit_s, "the robot is home before this time")
-      ->check(CLI::Range(1.0, 1e6));
+      ->check(CLI::Range(1.0, 1e6))
+      ->check(spelunk::evaluation::whyNotFinite);
   app.add_option("--out", options.out, "folder for the results");
   app.add_option("--start", options.start, "x,y,z,yaw; wins over the world's own");
   app.add_option("--go-to", options.go_to,

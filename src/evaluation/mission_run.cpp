@@ -71,6 +71,7 @@ struct MissionRun::Impl {
   double started_s = 0.0;
   Eigen::Vector3d last_position = Eigen::Vector3d::Zero();
   bool is_underway = false;  ///< To the point of the newest leg.
+  std::string stopped_why;   ///< Not empty: somebody ended the flight.
 };
 
 double MissionRun::Impl::remaining() const {
@@ -247,7 +248,8 @@ bool MissionRun::Impl::areLegsDone() const {
 }
 
 bool MissionRun::Impl::isOver() const {
-  return areLegsDone() || mission.status().state == mission::MissionState::kDone ||
+  return !stopped_why.empty() || areLegsDone() ||
+         mission.status().state == mission::MissionState::kDone ||
          simulator.walkerCount().falls > 0 || remaining() <= kOutOfEndurance_s;
 }
 
@@ -267,6 +269,11 @@ void MissionRun::Impl::finish() {
   record.ended_as_it_may = record.returned_home && remaining() > 0.0;
   record.remaining_targets = mission.remaining();
   if (is_underway) noteLeg();
+  if (!stopped_why.empty() && !record.returned_home) {
+    record.outcome =
+        stopped_why + ", " + std::to_string(distance(pose, setup.start)) + " m from home";
+    return;
+  }
   if (!setup.legs.empty() && !record.returned_home) return finishLegs();
   record.outcome = record.returned_home ? status.end_reason
                                         : (record.falls > 0 ? "fell " : "stranded ") +
@@ -303,6 +310,8 @@ MissionRun::~MissionRun() = default;
 RunRecord MissionRun::fly(const std::function<void(const Progress&)>& show) {
   return impl_->fly(show);
 }
+
+void MissionRun::stop(const std::string& why) { impl_->stopped_why = why; }
 
 mission::Mission& MissionRun::mission() { return impl_->mission; }
 

@@ -166,14 +166,19 @@ Spread spreadOf(std::vector<double> values) {
 
 void requireWritable(const std::string& folder) {
   std::error_code error;
+  std::error_code ignored;
   std::filesystem::create_directories(folder, error);
+  if (!std::filesystem::is_directory(folder, ignored))
+    throw OutsideError("output folder '" + folder + "' cannot be made (" + error.message() +
+                       "): choose another with --out");
   const std::string probe = folder + "/.write_test";
   std::ofstream file(probe);
   file << "x";
   file.close();
   if (!file)
-    throw OutsideError("output folder '" + folder +
-                       "' is not writable: choose another with --out or change its rights");
+    throw OutsideError(
+        "output folder '" + folder +
+        "' is not writable: choose another with --out, change its rights or free some space");
   std::filesystem::remove(probe, error);
 }
 

@@ -116,8 +116,9 @@ void Mission::Impl::noteNoWayHome(const RunningJob& job, const planners::PlanRes
   desk.noteNoWayHome(job, now);
   if (flight.active()) return;
   const bool was_searched = job.kind == Kind::kNavigationsWayHome;
+  const std::string& obstacle = way_home.obstacle();  // empty where the trail was not tried yet
   say(LogLevel::kWarn, "home",
-      way_home.obstacle() +
+      (obstacle.empty() ? "no way home but the trail is known" : obstacle) +
           (was_searched ? "; no way round it is known: " : "; the planner knows no other: ") +
           home.reason);
 }

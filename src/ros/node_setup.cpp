@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "spelunk/common/contract.h"
+#include "spelunk/common/file_lookup.h"
 #include "spelunk/mission/run_config.h"
 #include "spelunk/planners/factory.h"
 #include "spelunk/ros/params.h"
@@ -29,18 +30,18 @@ Params readNodeParams(const PrivateParams& given) {
 /// Both nodes read every section, so that one set of overrides serves both.
 template <class Params>
 mission::RunConfig loadConfig(const PrivateParams& given, const Params& params,
-                              const std::string& planner, sim::SimParams& sim, CloudParams& cloud) {
+                              CloudParams& cloud) {
   mission::RunChoice choice;
   choice.share_dir = params.share_dir;
   choice.robot = params.robot;
-  choice.planner = planner;
+  choice.planner = params.planner;
   choice.assignments = given.assignments;
   choice.assignments_origin = "~set";
+  choice.folders = {params.launch_dir, ""};
   mission::RunConfig config = mission::loadRunConfig(choice);
   addTo(config.tree, given.own);
   Params own;
   config.tree.read("node", own);
-  sim = sim::readSimParams(config.tree);
   config.tree.read("cloud", cloud);
   for (const std::string& problem : cloud.problems()) config.tree.addProblem(problem);
   return config;
@@ -68,8 +69,8 @@ PlannerSetup loadPlannerSetup(const ::ros::NodeHandle& private_node) {
   const PrivateParams given = readPrivateParams(private_node);
   PlannerSetup setup;
   setup.node = readNodeParams<PlannerNodeParams>(given);
-  sim::SimParams sim;
-  mission::RunConfig config = loadConfig(given, setup.node, setup.node.planner, sim, setup.cloud);
+  mission::RunConfig config = loadConfig(given, setup.node, setup.cloud);
+  (void)sim::readSimParams(config.tree);
   setup.planner =
       planners::makePlanner(config.planner, config.tree, config.robot, config.map.resolution_m);
   config.tree.requireClean();
@@ -88,7 +89,8 @@ SimSetup loadSimSetup(const ::ros::NodeHandle& private_node) {
   if (setup.node.worlds_dir.empty()) setup.node.worlds_dir = setup.node.share_dir + "/worlds";
   if (setup.node.cache_dir.empty()) setup.node.cache_dir = sim::defaultCacheDir();
   CloudParams cloud;
-  mission::RunConfig config = loadConfig(given, setup.node, setup.node.planner, setup.sim, cloud);
+  mission::RunConfig config = loadConfig(given, setup.node, cloud);
+  setup.sim = sim::readSimParams(config.tree, config.robot);
   (void)planners::makePlanner(config.planner, config.tree, config.robot, config.map.resolution_m);
   config.tree.requireClean();
   setup.robot = config.robot;
@@ -96,8 +98,11 @@ SimSetup loadSimSetup(const ::ros::NodeHandle& private_node) {
 }
 
 SimWorld openWorld(const SimNodeParams& params) {
+  const std::string name = looksLikePath(params.world)
+                               ? existingFile("mesh", params.world, {params.launch_dir, ""})
+                               : params.world;
   SimWorld world;
-  world.mesh = sim::openWorld(params.world, params.worlds_dir, params.cache_dir);
+  world.mesh = sim::openWorld(name, params.worlds_dir, params.cache_dir);
   world.start = startOf(params, world.mesh);
   return world;
 }

@@ -39,6 +39,9 @@ PlannerNode::PlannerNode(const ::ros::NodeHandle& node, const ::ros::NodeHandle&
   view_timer_ =
       view_node_.createWallTimer(::ros::WallDuration(params_.view_period_s),
                                  [this](const ::ros::WallTimerEvent&) { publishViews(); });
+  octomap_timer_ =
+      view_node_.createWallTimer(::ros::WallDuration(params_.octomap_period_s),
+                                 [this](const ::ros::WallTimerEvent&) { publishOctomap(); });
   core_.with([&](MissionCore& core) { core.wants_start = params_.auto_start; });
   view_spinner_.start();
 }
@@ -133,12 +136,17 @@ MissionView PlannerNode::viewOf(MissionCore& core) const {
   return view;
 }
 
+void PlannerNode::publishOctomap() {
+  if (!outputs_.wantsOctomap()) return;
+  holdingOnError(core_, "the octomap", [&] {
+    core_.with([&](MissionCore& core) {
+      outputs_.publishOctomap(core.mission.map(), ::ros::Time::now());
+    });
+  });
+}
+
 void PlannerNode::publishViews() {
   holdingOnError(core_, "drawing", [&] {
-    if (outputs_.wantsOctomap())
-      core_.with([&](MissionCore& core) {
-        outputs_.publishOctomap(core.mission.map(), ::ros::Time::now());
-      });
     if (!outputs_.wantsMarkers() && !outputs_.wantsMapCloud() && !outputs_.wantsTerrain()) return;
     MissionView view = core_.with([&](MissionCore& core) { return viewOf(core); });
     view.graph = shown_graph_.with([](const auto& shown) { return shown; });

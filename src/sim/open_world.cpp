@@ -10,6 +10,7 @@
 #include <sstream>
 
 #include "spelunk/common/contract.h"
+#include "spelunk/common/file_lookup.h"
 #include "spelunk/sim/world_generator.h"
 #include "spelunk/sim/world_mesh.h"
 
@@ -122,10 +123,6 @@ std::string knownNames(const std::string& worlds_dir) {
   return text.empty() ? "none" : text;
 }
 
-bool looksLikePath(const std::string& text) {
-  return text.find('/') != std::string::npos || fs::path(text).has_extension();
-}
-
 }  // namespace
 
 std::string defaultCacheDir() {
@@ -146,7 +143,7 @@ WorldMesh openWorld(const std::string& name_or_path, const std::string& worlds_d
                     const std::string& cache_dir) {
   std::error_code failure;
   const fs::path description = fs::path(worlds_dir) / (name_or_path + ".yaml");
-  if (looksLikePath(name_or_path)) return loadWorldMesh(name_or_path);
+  if (looksLikePath(name_or_path)) return loadWorldMesh(existingFile("mesh", name_or_path, {""}));
   if (!fs::is_regular_file(description, failure))
     throw OutsideError("world '" + name_or_path +
                        "' is not known; give the path of a mesh or one of: " +

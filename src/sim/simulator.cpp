@@ -103,6 +103,18 @@ SimParams readSimParams(ParamTree& tree) {
   return params;
 }
 
+SimParams readSimParams(ParamTree& tree, const RobotModel& robot) {
+  const SimParams params = readSimParams(tree);
+  const bool is_legged = kindOf(robot) == RobotKind::kLegged;
+  const Eigen::Vector3d& body_m = is_legged ? params.walker.trunk_m : params.body_m;
+  const std::string body_key = is_legged ? "walker.trunk_m" : "sim.body_m";
+  if ((robot.box_m.array() < body_m.array()).any())
+    tree.addProblem("robot.box_m = " + toText(robot.box_m) +
+                    " is smaller than the simulated body, " + body_key + " = " + toText(body_m) +
+                    "; make the box larger, with a margin, or the body smaller");
+  return params;
+}
+
 struct Simulator::Impl {
   Impl(const SimParams& sim_params, const RobotModel& robot, const WorldMesh& mesh,
        const Pose& start, std::uint64_t seed)

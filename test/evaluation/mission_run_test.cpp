@@ -60,6 +60,25 @@ TEST(MissionRun, SeesTheRoomAndComesHomeWithoutTouching) {
   EXPECT_FALSE(record.plans.empty());
 }
 
+TEST(MissionRun, StoppedInMidFlightItHasWhatItGathered) {
+  setLogSink([](LogLevel, const std::string&) {});
+  const RunSetup setup = roomSetup();
+  const sim::WorldMesh mesh = test::boxRoom({30.0F, 8.0F, 4.0F});
+  ParamTree tree;
+  const auto planner =
+      planners::makePlanner("gbplanner", tree, setup.robot, setup.map.resolution_m);
+  MissionRun run(setup, mesh, *planner);
+  const RunRecord record = run.fly([&](const Progress& progress) {
+    if (progress.t_s >= 12.0) run.stop("stopped by hand");
+  });
+  EXPECT_NEAR(record.mission_time_s, 12.0, 0.2);
+  EXPECT_FALSE(record.returned_home);
+  EXPECT_FALSE(record.ended_as_it_may);
+  EXPECT_EQ(record.outcome.rfind("stopped by hand, ", 0), 0U) << record.outcome;
+  EXPECT_GE(record.timeline.size(), 10U);
+  EXPECT_GT(record.explored_volume_m3, 50.0);
+}
+
 TEST(MissionRun, SameSeedWritesTheSameTimelineByteForByte) {
   const test::TemporaryFolder folder;
   std::vector<std::string> texts;

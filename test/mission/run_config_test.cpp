@@ -6,6 +6,7 @@
 
 #include "spelunk/common/contract.h"
 #include "spelunk/planners/factory.h"
+#include "support/temporary_folder.h"
 
 namespace spelunk::mission {
 namespace {
@@ -86,6 +87,75 @@ TEST(RunConfig, UnknownNavigationMethodIsAProblem) {
   RunChoice choice = shipped();
   choice.assignments = {"navigation.method=astar"};
   EXPECT_NE(problemsOf(choice).find("plain_short"), std::string::npos);
+}
+
+/// A folder of a user's own, outside the package.
+class OwnFiles : public testing::Test {
+ protected:
+  [[nodiscard]] RunChoice choiceOf(const std::string& robot) const {
+    RunChoice choice = shipped();
+    choice.robot = robot;
+    return choice;
+  }
+
+  test::TemporaryFolder folder_;
+};
+
+TEST_F(OwnFiles, RobotIsReadFromAPathAndItsSensorsFromBesideIt) {
+  folder_.write("mule.yaml",
+                "robot: {speed_max_mps: 1.25, sensors: [lidar_16, feeler, ./eye.yaml]}\n");
+  folder_.write("feeler.yaml", "sensor: {feeler: {range_max_m: 3}}\n");
+  folder_.write("eye.yaml", "sensor: {eye: {range_max_m: 4}}\n");
+  RunConfig config = loadRunConfig(choiceOf(folder_.at("mule.yaml")));
+  EXPECT_EQ(config.robot.name, "mule");
+  EXPECT_EQ(config.robot.speed_max_mps, 1.25);
+  ASSERT_EQ(config.robot.sensor_models.size(), 3U);
+  EXPECT_EQ(config.robot.sensor_models[0].rows, 16) << "the package's own";
+  EXPECT_EQ(config.robot.sensor_models[1].name, "feeler");
+  EXPECT_EQ(config.robot.sensor_models[1].range_max_m, 3.0);
+  EXPECT_EQ(config.robot.sensor_models[2].name, "eye");
+}
+
+TEST_F(OwnFiles, RelativePathsAreSeenFromTheGivenFolders) {
+  folder_.write("mule.yaml", "robot: {speed_max_mps: 1.25}\n");
+  RunChoice choice = choiceOf("mule.yaml");
+  choice.folders = {folder_.at("nowhere"), folder_.at("")};
+  EXPECT_EQ(loadRunConfig(choice).robot.speed_max_mps, 1.25);
+  choice.folders = {folder_.at("nowhere"), "/"};
+  const std::string text = problemsOf(choice);
+  EXPECT_NE(text.find(folder_.at("nowhere") + "/mule.yaml"), std::string::npos) << text;
+  EXPECT_NE(text.find("\n  - /mule.yaml"), std::string::npos) << text;
+}
+
+TEST_F(OwnFiles, SensorThatIsNowhereIsNamedWithThePlacesLookedAt) {
+  folder_.write("mule.yaml", "robot: {sensors: [feeler]}\n");
+  const std::string text = problemsOf(choiceOf(folder_.at("mule.yaml")));
+  EXPECT_NE(text.find("config/sensors/feeler.yaml"), std::string::npos) << text;
+  EXPECT_NE(text.find(folder_.at("feeler.yaml")), std::string::npos) << text;
+}
+
+TEST_F(OwnFiles, TwoSensorsOfOneNameAreAProblem) {
+  folder_.write("mule.yaml", "robot: {sensors: [lidar_16, ./lidar_16.yaml]}\n");
+  folder_.write("lidar_16.yaml", "sensor: {lidar_16: {rows: 8}}\n");
+  const std::string text = problemsOf(choiceOf(folder_.at("mule.yaml")));
+  EXPECT_NE(text.find("two are called 'lidar_16'"), std::string::npos) << text;
+}
+
+TEST_F(OwnFiles, PlannerFileNamesThePlannerByItsSection) {
+  folder_.write("patient.yaml", "nbvp: {max_vertices: 123}\n");
+  RunChoice choice = shipped();
+  choice.planner = folder_.at("patient.yaml");
+  RunConfig config = loadRunConfig(choice);
+  EXPECT_EQ(config.planner, "nbvp");
+  EXPECT_EQ(config.tree.textOf("nbvp.max_vertices", ""), "123");
+}
+
+TEST_F(OwnFiles, PlannerFileWithoutOneSectionIsRefused) {
+  folder_.write("mixed.yaml", "nbvp: {max_vertices: 123}\nmap: {resolution_m: 0.2}\n");
+  RunChoice choice = shipped();
+  choice.planner = folder_.at("mixed.yaml");
+  const std::string text = problemsOf(choice);
+  EXPECT_NE(text.find("holds 2 sections"), std::string::npos) << text;
 }
 
 TEST(RunConfig, AssignmentWithoutValueIsNamed) {

@@ -38,6 +38,10 @@ class CutTrail : public testing::Test {
       return ScriptedPlanner::none(PlanStatus::kNoPath);
     };
   }
+  void TearDown() override {
+    for (const std::string& line : log_)
+      EXPECT_NE(line.substr(0, 1), ";") << "a sentence lacks its first half: " << line;
+  }
   /// Past all stops; the last one lies beyond `x_min_m`.
   void flyOut(ScriptedFlight& flight, double x_min_m = 17.0) {
     ASSERT_TRUE(flight.start().accepted);

@@ -28,7 +28,7 @@ struct RobotModel {
   double braking_deceleration_mps2 = 2.5;        ///< What an emergency stop reaches for sure.
   double reaction_time_s = 0.3;                  ///< From a new obstacle seen to braking.
   double endurance_s = 900.0;                    ///< On a full battery, at cruising speed.
-  std::vector<std::string> sensors{"lidar_16"};  ///< Names in config/sensors.
+  std::vector<std::string> sensors{"lidar_16"};  ///< Names in config/sensors or paths.
   std::vector<SensorModel> sensor_models;        ///< Filled by loadRobot.
 
   template <class Visitor>
@@ -51,7 +51,7 @@ struct RobotModel {
     field("reaction_time_s", reaction_time_s, Bounds{0.0, 5.0}, "from seeing to braking");
     field("endurance_s", endurance_s, Bounds{1.0, 1e6}, "how long a full battery lasts at cruising speed",
           Audience::kUser);
-    field("sensors", sensors, Bounds{}, "names of files in config/sensors", Audience::kUser);
+    field("sensors", sensors, Bounds{}, "names from config/sensors or paths of files", Audience::kUser);
   }
   [[nodiscard]] std::vector<std::string> problems() const;
 };
@@ -67,10 +67,12 @@ struct RobotModel {
 /// Distance to a standstill from `speed_mps`, reaction time included.
 [[nodiscard]] double brakingDistance(const RobotModel& robot, double speed_mps);
 
-/// Reads "robot.*" and each of its sensors ("sensor.<name>.*") from `tree`; sensor files are looked
-/// up in `config_dir`/sensors and lie below values already in the tree. Problems are added to
-/// the tree. Throws OutsideError if a sensor's file is missing.
+/// Reads "robot.*" and each of its sensors ("sensor.<name>.*") from `tree`; sensor files lie below
+/// values already in the tree. A sensor is a name from `config_dir`/sensors or, where that has no
+/// such file, from `folders`, or the path of a file seen from `folders`, whose stem is its name.
+/// Problems are added to the tree. Throws OutsideError if a sensor's file is missing.
 [[nodiscard]] RobotModel loadRobot(ParamTree& tree, const std::string& name,
-                                   const std::string& config_dir);
+                                   const std::string& config_dir,
+                                   const std::vector<std::string>& folders = {""});
 
 }  // namespace spelunk

@@ -128,6 +128,10 @@ class MissionRun {
   /// has held at one place for good. Calls `show` about every simulated second if given.
   [[nodiscard]] RunRecord fly(const std::function<void(const Progress&)>& show = {});
 
+  /// Ends the flight before its next tenth of a second, for a reason that the record names. Call it
+  /// from `show`.
+  void stop(const std::string& why);
+
   /// The mission, for its map and trail after the flight.
   [[nodiscard]] mission::Mission& mission();
 

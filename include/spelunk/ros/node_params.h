@@ -18,26 +18,33 @@ struct PlannerNodeParams {
   double time_limit_s = 900.0;
   bool auto_start = false;
   std::string share_dir;
+  std::string launch_dir;
   std::string world_frame = "world";
   double silence_s = 3.0;
   double tick_rate_hz = 10.0;
   double view_period_s = 1.0;
+  double octomap_period_s = 2.0;
 
   template <class Visitor>
   void visit(Visitor&& field) {
-    field("robot", robot, Bounds{}, "a file of config/robots", Audience::kUser);
-    field("planner", planner, Bounds{}, "how to explore", Audience::kUser);
+    field("robot", robot, Bounds{}, "a name from config/robots or the path of a file",
+          Audience::kUser);
+    field("planner", planner, Bounds{}, "how to explore, or the path of a planner's file",
+          Audience::kUser);
     field("seed", seed, Bounds{0.0, 2e9}, "of the planner's random draws", Audience::kUser);
     field("time_limit_s", time_limit_s, Bounds{1.0, 1e6}, "the robot is home by then",
           Audience::kUser);
     field("auto_start", auto_start, Bounds{}, "start as soon as cloud and odometry arrive",
           Audience::kUser);
     field("share_dir", share_dir, Bounds{}, "where config/ and worlds/ lie; empty: the package");
+    field("launch_dir", launch_dir, Bounds{},
+          "relative paths are seen from here, else from the node's working folder");
     field("world_frame", world_frame, Bounds{}, "fixed frame of map and paths", Audience::kUser);
     field("silence_s", silence_s, Bounds{0.2, 1000.0},
           "warn if cloud or odometry stay away longer");
     field("tick_rate_hz", tick_rate_hz, Bounds{1.0, 100.0}, "of the mission");
     field("view_period_s", view_period_s, Bounds{0.05, 100.0}, "between map clouds and markers");
+    field("octomap_period_s", octomap_period_s, Bounds{0.05, 1000.0}, "between octomaps");
   }
 };
 
@@ -50,6 +57,7 @@ struct SimNodeParams {
   double speed_factor = 1.0;
   std::vector<std::string> start;
   std::string share_dir;
+  std::string launch_dir;
   std::string worlds_dir;
   std::string cache_dir;
   std::string world_frame = "world";
@@ -59,13 +67,16 @@ struct SimNodeParams {
   template <class Visitor>
   void visit(Visitor&& field) {
     field("world", world, Bounds{}, "a name of worlds/ or the path of a mesh", Audience::kUser);
-    field("robot", robot, Bounds{}, "a file of config/robots", Audience::kUser);
+    field("robot", robot, Bounds{}, "a name from config/robots or the path of a file",
+          Audience::kUser);
     field("planner", planner, Bounds{}, "whose parameters ~set may hold; not used otherwise");
     field("seed", seed, Bounds{0.0, 2e9}, "of noise, drop-outs, dust", Audience::kUser);
     field("speed_factor", speed_factor, Bounds{0.01, 1000.0}, "simulated seconds a real second",
           Audience::kUser);
     field("start", start, Bounds{}, "x, y, z, yaw; empty: the world's own", Audience::kUser);
     field("share_dir", share_dir, Bounds{}, "where config/ and worlds/ lie; empty: the package");
+    field("launch_dir", launch_dir, Bounds{},
+          "relative paths are seen from here, else from the node's working folder");
     field("worlds_dir", worlds_dir, Bounds{}, "where worlds lie; empty: share_dir/worlds");
     field("cache_dir", cache_dir, Bounds{}, "for generated meshes; empty: ~/.cache/spelunk");
     field("world_frame", world_frame, Bounds{}, "fixed frame");

@@ -44,6 +44,7 @@ class PlannerNode {
   void startIfWanted(MissionCore& core, double now_s);
   void publishStatusIfChanged(MissionCore& core, double now_s);
   void publishStatus();
+  void publishOctomap();
   void publishViews();
   [[nodiscard]] MissionView viewOf(MissionCore& core) const;
   void publish(MissionCore& core, const mission::Command& command);
@@ -65,6 +66,7 @@ class PlannerNode {
   ::ros::Timer tick_timer_;
   ::ros::WallTimer status_timer_;
   ::ros::WallTimer view_timer_;
+  ::ros::WallTimer octomap_timer_;
   ::ros::AsyncSpinner view_spinner_;
 };
 

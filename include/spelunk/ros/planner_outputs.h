@@ -48,6 +48,7 @@ class PlannerOutputs {
   void publishMapCloud(const map::FrozenMap& map, const ::ros::Time& now);
   /// `elevation` and `traversability`.
   void publishTerrain(const terrain::TerrainView& terrain, const ::ros::Time& now);
+  /// `octomap` and `octomap_full`, latched.
   void publishOctomap(map::OccupancyMap& map, const ::ros::Time& now);
 
   [[nodiscard]] bool wantsGraph() const { return graph_.getNumSubscribers() > 0; }
@@ -56,7 +57,9 @@ class PlannerOutputs {
   [[nodiscard]] bool wantsTerrain() const {
     return elevation_.getNumSubscribers() > 0 || traversability_.getNumSubscribers() > 0;
   }
-  [[nodiscard]] bool wantsOctomap() const;  ///< Never, where octomap_msgs is not installed.
+  [[nodiscard]] bool wantsOctomap() const {
+    return octomap_.getNumSubscribers() > 0 || octomap_full_.getNumSubscribers() > 0;
+  }
 
  private:
   std::string frame_;
@@ -69,6 +72,7 @@ class PlannerOutputs {
   ::ros::Publisher elevation_;
   ::ros::Publisher traversability_;
   ::ros::Publisher octomap_;
+  ::ros::Publisher octomap_full_;
   MarkerBuilder marker_builder_;
 };
 

@@ -62,6 +62,8 @@ struct SimParams {
 
 /// Reads the sections "sim" and "walker"; problems are added to the tree.
 [[nodiscard]] SimParams readSimParams(ParamTree& tree);
+/// The same for a robot that is to be simulated: its body must fit into the box it plans with.
+[[nodiscard]] SimParams readSimParams(ParamTree& tree, const RobotModel& robot);
 
 struct BatteryState {
   double energy_wh = 0.0;
