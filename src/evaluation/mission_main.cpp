@@ -58,6 +58,8 @@ Loaded load(const Options& options) {
   loaded.config = spelunk::mission::loadRunConfig(
       {loaded.share_dir, options.robot, options.planner, options.assignments});
   loaded.sim = spelunk::sim::readSimParams(loaded.config.tree);
+  for (const std::string& problem : loaded.sim.problemsFor(loaded.config.robot))
+    loaded.config.tree.addProblem(problem);
   loaded.config.tree.read("delays", loaded.delays);
   loaded.planner = spelunk::planners::makePlanner(
       options.planner, loaded.config.tree, loaded.config.robot, loaded.config.map.resolution_m);
@@ -83,7 +85,8 @@ void listParams(const Options& options) {
   printTable(spelunk::describe("mission", loaded.config.mission));
   printTable(spelunk::describe("navigation", loaded.config.navigation));
   printTable(spelunk::describe("terrain", loaded.config.terrain));
-  printTable(spelunk::planners::describePlanner(options.planner, loaded.config.tree));
+  printTable(
+      spelunk::planners::describePlanner(options.planner, loaded.config.tree, loaded.config.robot));
   printTable(spelunk::describe("sim", loaded.sim));
   printTable(spelunk::describe("delays", loaded.delays));
 }

@@ -36,7 +36,9 @@ struct RunConfig {
   std::string planner;
 };
 
-/// Reads robot, sensors, map and mission from the files of a choice. Throws OutsideError if a file
+/// Reads robot, sensors, map and mission from the files of a choice. Values that follow from others
+/// (0, or left out) are written out; values that contradict each other are problems of the tree,
+/// with both names, both numbers and the remedy. Throws OutsideError if a file
 /// is missing or not YAML; an unknown robot lists the known ones.
 [[nodiscard]] RunConfig loadRunConfig(const RunChoice& choice);
 
