@@ -40,10 +40,21 @@ double longestRange(const RobotModel& robot) {
 }
 
 bool seesAllAround(const RobotModel& robot) {
-  constexpr double kFullCircle_deg = 359.0;
-  return std::any_of(
-      robot.sensor_models.begin(), robot.sensor_models.end(),
-      [](const SensorModel& sensor) { return sensor.fov_horizontal_deg >= kFullCircle_deg; });
+  return std::any_of(robot.sensor_models.begin(), robot.sensor_models.end(),
+                     [](const SensorModel& sensor) { return seesAllAround(sensor); });
+}
+
+double denseRange(const RobotModel& robot) {
+  double range = 0.0;
+  for (const SensorModel& sensor : robot.sensor_models)
+    range = std::max(range, denseRange(sensor, robot.box_m.z()));
+  return range;
+}
+
+double longestGainRange(const RobotModel& robot) {
+  double range = 0.0;
+  for (const SensorModel& sensor : robot.sensor_models) range = std::max(range, gainRange(sensor));
+  return range;
 }
 
 RobotKind kindOf(const RobotModel& robot) {
@@ -55,6 +66,15 @@ std::vector<std::string> RobotModel::problems() const {
   if (kind != "aerial" && kind != "legged")
     found.push_back("robot '" + name + "': kind '" + kind + "' must be aerial or legged");
   if (sensors.empty()) found.push_back("robot '" + name + "': needs at least one sensor");
+  if (acceleration_max_mps2 > braking_deceleration_mps2)
+    found.push_back(
+        "robot.acceleration_max_mps2 = " + toText(acceleration_max_mps2) +
+        " is more than robot.braking_deceleration_mps2 = " + toText(braking_deceleration_mps2) +
+        ": planned motion slows down by the first, a stop is the hardest it can do; "
+        "lower the first or raise the second");
+  if (kind == "legged" && ride_height_m <= 0.0)
+    found.push_back("robot.ride_height_m = " + toText(ride_height_m) +
+                    ": a legged robot carries its base above the ground; say how high");
   return found;
 }
 

@@ -103,7 +103,8 @@ void listParams(const Options& options) {
   printTable(spelunk::describe("mission", loaded.config.mission));
   printTable(spelunk::describe("navigation", loaded.config.navigation));
   printTable(spelunk::describe("terrain", loaded.config.terrain));
-  printTable(spelunk::planners::describePlanner(loaded.config.planner, loaded.config.tree));
+  printTable(spelunk::planners::describePlanner(loaded.config.planner, loaded.config.tree,
+                                                loaded.config.robot));
   printTable(spelunk::describe("sim", loaded.sim));
   printTable(spelunk::describe("delays", loaded.delays));
 }

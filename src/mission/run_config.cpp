@@ -4,6 +4,7 @@
 #include <cstdlib>
 #include <filesystem>
 
+#include "run_rules.h"
 #include "spelunk/common/contract.h"
 #include "spelunk/common/file_lookup.h"
 
@@ -57,6 +58,24 @@ void addIfPresent(ParamTree& tree, const std::string& path) {
   if (fs::exists(path)) tree.addYamlFile(path);
 }
 
+/// The sections of a run. What is 0 or absent and follows from another value is written out.
+void readFollowing(ParamTree& tree, RunConfig& config) {
+  config.map.range_max_m = 0.0;
+  tree.read("map", config.map);
+  if (config.map.range_max_m <= 0.0) config.map.range_max_m = mapRangeFor(config);
+  for (SensorModel& sensor : config.robot.sensor_models)
+    sensor = resolved(sensor, config.map.range_max_m);
+  tree.read("mission", config.mission);
+  tree.read("navigation", config.navigation);
+  config.terrain.elevation.base_height_m = 0.0;
+  config.terrain.elevation.body_m = config.robot.box_m;
+  config.terrain.footprint.footprint_length_m = config.robot.box_m.x();
+  config.terrain.footprint.footprint_width_m = config.robot.box_m.y();
+  tree.read("terrain", config.terrain);
+  if (config.terrain.elevation.base_height_m <= 0.0)
+    config.terrain.elevation.base_height_m = config.robot.ride_height_m;
+}
+
 }  // namespace
 
 std::string shareDir() {
@@ -96,17 +115,10 @@ RunConfig loadRunConfig(const RunChoice& choice) {
   std::vector<std::string> folders{fs::path(robot_file).parent_path().string()};
   folders.insert(folders.end(), choice.folders.begin(), choice.folders.end());
   config.robot = loadRobot(config.tree, fs::path(robot_file).stem().string(), dir, folders);
-  config.tree.read("map", config.map);
-  for (const SensorModel& sensor : config.robot.sensor_models)
-    if (sensor.reports_misses && sensor.range_max_m <= config.map.range_max_m)
-      config.tree.addProblem("sensor." + sensor.name +
-                             ".reports_misses: map.range_max_m must be below the sensor's "
-                             "range_max_m, or its misses become obstacles");
-  config.tree.read("mission", config.mission);
-  config.tree.read("navigation", config.navigation);
+  readFollowing(config.tree, config);
   for (const std::string& problem : config.navigation.problems()) config.tree.addProblem(problem);
-  config.tree.read("terrain", config.terrain);
   for (const std::string& problem : config.terrain.problems()) config.tree.addProblem(problem);
+  for (const std::string& problem : problemsBetween(config)) config.tree.addProblem(problem);
   config.planner = planner.name;
   return config;
 }

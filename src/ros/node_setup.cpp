@@ -43,6 +43,11 @@ mission::RunConfig loadConfig(const PrivateParams& given, const Params& params,
   Params own;
   config.tree.read("node", own);
   config.tree.read("cloud", cloud);
+  if (cloud.voxel_size_m > config.map.resolution_m)
+    config.tree.addProblem(
+        "cloud.voxel_size_m = " + toText(cloud.voxel_size_m) +
+        " is coarser than map.resolution_m = " + toText(config.map.resolution_m) +
+        ": walls would have holes; set it to at most that");
   for (const std::string& problem : cloud.problems()) config.tree.addProblem(problem);
   return config;
 }
@@ -73,6 +78,12 @@ PlannerSetup loadPlannerSetup(const ::ros::NodeHandle& private_node) {
   (void)sim::readSimParams(config.tree);
   setup.planner =
       planners::makePlanner(config.planner, config.tree, config.robot, config.map.resolution_m);
+  for (const SensorModel& sensor : config.robot.sensor_models)
+    if (setup.node.silence_s * sensor.rate_hz <= 1.0)
+      config.tree.addProblem("~silence_s = " + toText(setup.node.silence_s) +
+                             " is no longer than the time between scans of sensor." + sensor.name +
+                             ".rate_hz = " + toText(sensor.rate_hz) +
+                             ": every gap would be a warning; raise it");
   config.tree.requireClean();
   setup.robot = config.robot;
   setup.mission = config.mission;

@@ -94,6 +94,22 @@ std::vector<std::string> SimParams::problems() const {
   return found;
 }
 
+std::vector<std::string> SimParams::problemsFor(const RobotModel& robot) const {
+  constexpr double kSameHeight_m = 0.05;  // legs give so much
+  std::vector<std::string> found;
+  const bool is_legged = kindOf(robot) == RobotKind::kLegged;
+  const Eigen::Vector3d& body = is_legged ? walker.trunk_m : body_m;
+  if ((body.array() > robot.box_m.array()).any())
+    found.push_back(std::string(is_legged ? "walker.trunk_m" : "sim.body_m") + " = " +
+                    toText(body) + " does not fit into robot.box_m = " + toText(robot.box_m) +
+                    ", which keeps the robot clear of obstacles: enlarge the box");
+  if (is_legged && std::fabs(walker.stand_height_m - robot.ride_height_m) > kSameHeight_m)
+    found.push_back("walker.stand_height_m = " + toText(walker.stand_height_m) +
+                    " and robot.ride_height_m = " + toText(robot.ride_height_m) +
+                    " are the same height of the base above the ground: set both alike");
+  return found;
+}
+
 SimParams readSimParams(ParamTree& tree) {
   SimParams params;
   tree.read("sim", params);
@@ -105,13 +121,7 @@ SimParams readSimParams(ParamTree& tree) {
 
 SimParams readSimParams(ParamTree& tree, const RobotModel& robot) {
   const SimParams params = readSimParams(tree);
-  const bool is_legged = kindOf(robot) == RobotKind::kLegged;
-  const Eigen::Vector3d& body_m = is_legged ? params.walker.trunk_m : params.body_m;
-  const std::string body_key = is_legged ? "walker.trunk_m" : "sim.body_m";
-  if ((robot.box_m.array() < body_m.array()).any())
-    tree.addProblem("robot.box_m = " + toText(robot.box_m) +
-                    " is smaller than the simulated body, " + body_key + " = " + toText(body_m) +
-                    "; make the box larger, with a margin, or the body smaller");
+  for (const std::string& problem : params.problemsFor(robot)) tree.addProblem(problem);
   return params;
 }
 

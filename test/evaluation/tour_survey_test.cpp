@@ -103,5 +103,19 @@ TEST(TourSurvey, IsWrittenAndAFullOrMissingFolderNamed) {
   EXPECT_THROW(writeSurvey(survey, folder.at("none")), OutsideError);
 }
 
+TEST(TourSurvey, ARobotThatLooksOneWayTurnsAbout) {
+  RobotModel around = smallFlyer();
+  const TourSurvey all = surveyOfCorridor(around);
+  RobotModel one_way = smallFlyer();
+  SensorModel& camera = one_way.sensor_models.front();
+  camera.fov_horizontal_deg = 90.0;
+  camera.mount_roll_deg = 180.0;  // seen upside down, a symmetric field is the same
+  const TourSurvey turned = surveyOfCorridor(one_way);
+  ASSERT_EQ(all.outlooks.size(), turned.outlooks.size());
+  for (std::size_t i = 0; i < all.seen.size(); ++i)
+    EXPECT_NEAR(volumeOf(turned.seen[i], turned), volumeOf(all.seen[i], all),
+                0.03 * volumeOf(all.seen[i], all));
+}
+
 }  // namespace
 }  // namespace spelunk::evaluation

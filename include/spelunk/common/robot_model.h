@@ -49,9 +49,10 @@ struct RobotModel {
     field("braking_deceleration_mps2", braking_deceleration_mps2, Bounds{0.1, 30.0},
           "sure deceleration of a stop");
     field("reaction_time_s", reaction_time_s, Bounds{0.0, 5.0}, "from seeing to braking");
-    field("endurance_s", endurance_s, Bounds{1.0, 1e6}, "how long a full battery lasts at cruising speed",
+    field("endurance_s", endurance_s, Bounds{1.0, 1e6},
+          "how long a full battery lasts at cruising speed", Audience::kUser);
+    field("sensors", sensors, Bounds{}, "names from config/sensors or paths of files",
           Audience::kUser);
-    field("sensors", sensors, Bounds{}, "names from config/sensors or paths of files", Audience::kUser);
   }
   [[nodiscard]] std::vector<std::string> problems() const;
 };
@@ -60,6 +61,11 @@ struct RobotModel {
 
 /// How far the farthest-seeing sensor reaches, metres; 0 without sensors.
 [[nodiscard]] double longestRange(const RobotModel& robot);
+/// Up to which distance the rows of its best sensor are no farther apart than its box is high, so
+/// that a place there is known as a whole, metres; 0 without sensors.
+[[nodiscard]] double denseRange(const RobotModel& robot);
+/// The longest range of the rays of gains of its sensors, metres; 0 without sensors.
+[[nodiscard]] double longestGainRange(const RobotModel& robot);
 /// Whether a sensor of it looks all round, so that its heading does not matter.
 [[nodiscard]] bool seesAllAround(const RobotModel& robot);
 [[nodiscard]] MotionLimits limitsOf(const RobotModel& robot);

@@ -23,7 +23,7 @@ struct SurveyParams {
 };
 
 /// Outlooks in a known world, short ways between them, and what a standing, level robot sees from
-/// each. Outlook 0 is the start.
+/// each; one whose sensors do not see all round turns about once. Outlook 0 is the start.
 struct TourSurvey {
   struct Way {
     std::uint32_t from = 0;

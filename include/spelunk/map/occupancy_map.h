@@ -31,8 +31,9 @@ struct MapParams {
   template <class Visitor>
   void visit(Visitor&& field) {
     field("resolution_m", resolution_m, Bounds{0.02, 2.0}, "edge of a voxel", Audience::kUser);
-    field("range_max_m", range_max_m, Bounds{1.0, 300.0},
-          "longer returns only free their ray up to here", Audience::kUser);
+    field("range_max_m", range_max_m, Bounds{0.0, 500.0},
+          "longer returns only free their ray up to here; 0: as far as the sensors see",
+          Audience::kUser);
     field("range_min_m", range_min_m, Bounds{0.0, 10.0}, "nearer returns are dropped");
     field("hit_probability", hit_probability, Bounds{0.5, 1.0}, "occupancy a hit votes for");
     field("miss_probability", miss_probability, Bounds{0.0, 0.5}, "occupancy a miss votes for");

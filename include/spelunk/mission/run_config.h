@@ -40,8 +40,9 @@ struct RunConfig {
 
 /// Reads robot, sensors, map and mission from the files of a choice. A robot's sensor files may lie
 /// beside its own file; a planner's own file lies over the shipped one of the planner whose section
-/// it holds. Throws OutsideError if a file is missing or not YAML; an unknown robot lists the known
-/// ones.
+/// it holds. Values that follow from others (0, or left out) are written out; values that
+/// contradict each other are problems of the tree, with both names, both numbers and the remedy.
+/// Throws OutsideError if a file is missing or not YAML; an unknown robot lists the known ones.
 [[nodiscard]] RunConfig loadRunConfig(const RunChoice& choice);
 
 }  // namespace spelunk::mission

@@ -38,6 +38,8 @@ struct SimParams {
 
   /// Broken rules between fields, one text each; empty if all is well. The walker's are apart.
   [[nodiscard]] std::vector<std::string> problems() const;
+  /// Where the simulated body contradicts what planner and mission know of the robot.
+  [[nodiscard]] std::vector<std::string> problemsFor(const RobotModel& robot) const;
 
   template <class Visitor>
   void visit(Visitor&& field) {
