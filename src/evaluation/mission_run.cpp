@@ -17,6 +17,18 @@ constexpr double kRateWindow_s = 10.0;
 constexpr double kOutOfEndurance_s = 0.05;
 constexpr double kStandstill_mps = 0.1;
 
+/// Where rays that meet nothing are reported, they make free space, and outside an open mesh that
+/// never ends: such a robot stays within the mesh. Others see no way out of it.
+AxisAlignedBox boundsOf(const RunSetup& setup, const sim::WorldMesh& mesh) {
+  const auto& sensors = setup.robot.sensor_models;
+  const bool sees_the_open =
+      std::any_of(sensors.begin(), sensors.end(),
+                  [](const SensorModel& sensor) { return sensor.reports_misses; });
+  if (!sees_the_open) return setup.bounds;
+  const AxisAlignedBox start = boxAround(setup.start.position, setup.robot.box_m);
+  return intersection(setup.bounds, hull(mesh.bounds(), start));
+}
+
 }  // namespace
 
 struct MissionRun::Impl {
@@ -26,6 +38,7 @@ struct MissionRun::Impl {
         planner(run_planner),
         simulator(setup.sim, setup.robot, mesh, setup.start, setup.seed),
         mission(setup.mission, setup.robot, setup.map, setup.seed, setup.terrain),
+        bounds(boundsOf(run_setup, mesh)),
         explored(mesh.bounds()),
         scans(setup.delays.scan_s),
         outcomes(setup.delays.plan_s),
@@ -62,6 +75,7 @@ struct MissionRun::Impl {
   planners::ExplorationPlanner& planner;
   sim::Simulator simulator;
   mission::Mission mission;
+  AxisAlignedBox bounds;  ///< Of exploration.
   ExploredVolume explored;
   Mail<Scan> scans;
   Mail<mission::PlanOutcome> outcomes;
@@ -158,7 +172,7 @@ void MissionRun::Impl::warmUp() {
     sense();
     mission.tick(now());
   }
-  if (const auto answer = mission.setBounds(setup.bounds); !answer.accepted)
+  if (const auto answer = mission.setBounds(bounds); !answer.accepted)
     throw OutsideError("the bounds are refused: " + answer.reason);
   if (const auto answer = mission.setZones(setup.zones); !answer.accepted)
     throw OutsideError("the no-go zones are refused: " + answer.reason);

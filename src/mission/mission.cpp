@@ -1,11 +1,18 @@
 #include "spelunk/mission/mission.h"
 
 #include <cstdio>
+#include <filesystem>
 
 #include "mission_impl.h"
 #include "spelunk/common/contract.h"
 
 namespace spelunk::mission {
+namespace {
+
+/// Where nothing returned from; folders of earlier versions lack it.
+std::string silenceFile(const std::string& folder) { return folder + "/silence.bt"; }
+
+}  // namespace
 
 Mission::Impl::Impl(const MissionParams& mission_params, const RobotModel& robot_model,
                     const map::MapParams& map_params, std::uint64_t seed,
@@ -131,6 +138,7 @@ Answer Mission::save(const std::string& folder, const planners::PlannerGraph& gr
     writeRecord(folder, impl_->record(graph));
     impl_->space.map().save(folder + "/map.ot");
     impl_->space.map().save(folder + "/map.bt");
+    impl_->space.map().saveSilence(silenceFile(folder));
   } catch (const OutsideError& error) {
     return {false, error.what()};
   }
@@ -142,6 +150,8 @@ Answer Mission::load(const std::string& folder, planners::PlannerGraph* graph) {
   try {
     MissionRecord record = readRecord(folder);
     impl_->space.map().load(folder + "/map.ot");
+    if (std::filesystem::exists(silenceFile(folder)))
+      impl_->space.map().loadSilence(silenceFile(folder));
     impl_->takeUp(record);
     if (graph != nullptr) *graph = std::move(record.graph);
   } catch (const OutsideError& error) {

@@ -1,6 +1,7 @@
 #include <cstdio>
 
 #include "mission_impl.h"
+#include "spelunk/mission/openings_left.h"
 
 namespace spelunk::mission {
 namespace {
@@ -79,8 +80,10 @@ void Mission::Impl::turnHome(Event event, Task before, const std::string& why) {
   desk.drop();
   desk.beginHome(may_find_more ? PlanDesk::SecondLooks::kAllowed : PlanDesk::SecondLooks::kNone,
                  now);
-  end_reason = why;
-  show(MissionState::kHome, why);
+  const auto openings = map::findOpenings(*space.map().freeze(), robot.box_m);
+  desk.noteOpenings(openings);
+  end_reason = why + (event == Event::kNothingLeft ? countText(openings) : "");
+  show(MissionState::kHome, end_reason);
   if (mayMove()) launchHome();
 }
 

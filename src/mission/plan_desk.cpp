@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "spelunk/mission/openings_left.h"
+
 namespace spelunk::mission {
 namespace {
 
@@ -159,7 +161,8 @@ std::optional<RunningJob> PlanDesk::finish(const PlanOutcome& outcome, double no
   ++counts_.plans;
   counts_.last_stats = outcome.plan.stats;
   counts_.last_plan_status = planners::toText(outcome.plan.status);
-  remaining_ = outcome.plan.remaining;
+  planner_left_ = outcome.plan.remaining;
+  gatherRemaining();
   return job;
 }
 
@@ -207,6 +210,16 @@ void PlanDesk::noteNoWayHome(const RunningJob& job, double now_s) {
   // Navigation knows nothing of footing.
   asks_navigation_ =
       kindOf(basis_.robot) == RobotKind::kAerial && job.kind != Kind::kNavigationsWayHome;
+}
+
+void PlanDesk::noteOpenings(const std::vector<map::Opening>& openings) {
+  openings_ = targetsOf(openings);
+  gatherRemaining();
+}
+
+void PlanDesk::gatherRemaining() {
+  remaining_ = planner_left_;
+  remaining_.insert(remaining_.end(), openings_.begin(), openings_.end());
 }
 
 }  // namespace spelunk::mission

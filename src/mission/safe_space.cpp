@@ -15,7 +15,9 @@ constexpr double kStepOut_m = 0.7;
 }  // namespace
 
 SafeSpace::SafeSpace(const map::MapParams& map_params, const RobotModel& robot)
-    : robot_(robot), map_(map_params), zones_(robot.box_m) {}
+    : robot_(robot), map_(map_params), zones_(robot.box_m) {
+  map_.watchSilence(robot.sensor_models, robot.box_m.z());
+}
 
 Eigen::Vector3d SafeSpace::bodyBox() const { return kBodyShare * robot_.box_m; }
 

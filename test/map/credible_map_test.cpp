@@ -44,15 +44,33 @@ class GrowingMap {
       if (cell != 0)
         blocks_.setValue(packIndex(kCorner + VoxelIndex(x, y, z)), cell == 2 ? 1.0F : -1.0F);
     });
-    const FrozenMap::Blocks nothing;
-    const FrozenMap::Blocks& last = frozen_ ? frozen_->blocks() : nothing;
-    frozen_ = std::make_shared<const FrozenMap>(
-        freezeBlocks(blocks_, blocks_.takeStatusChanges(), last), 0.2);
-    return frozen_;
+    return freeze();
+  }
+  /// Looks in vain into all that `grid` marks, as often as makes it silent.
+  std::shared_ptr<const FrozenMap> lookInVain(Grid grid) {
+    for (int look = 0; look < SilentVoxels::kLooks; ++look) {
+      std::vector<PackedKey> voxels;
+      forEachCell([&](int x, int y, int z) {
+        if (grid.at(x, y, z) != 0) voxels.push_back(packIndex(kCorner + VoxelIndex(x, y, z)));
+      });
+      silence_.countLook(voxels);
+    }
+    return freeze();
   }
 
  private:
+  std::shared_ptr<const FrozenMap> freeze() {
+    const FrozenMap::Blocks nothing;
+    const FrozenMap::Blocks& last = frozen_ ? frozen_->blocks() : nothing;
+    frozen_ = std::make_shared<const FrozenMap>(
+        freezeBlocks(blocks_, silence_, {blocks_.takeStatusChanges(), silence_.takeChanges()},
+                     last),
+        0.2);
+    return frozen_;
+  }
+
   BlockMap blocks_{LogOdds(MapParams{})};
+  SilentVoxels silence_;
   std::shared_ptr<const FrozenMap> frozen_;
 };
 
@@ -85,6 +103,19 @@ Grid byBruteForce(Grid grid, int gap, int reach) {
     if (isNearOccupied(grid, x, y, z, reach)) grown.at(x, y, z) = 2;
   });
   return grown;
+}
+
+/// What silence adds: unknown voxels near silent ones are solid.
+Grid endedAtSilence(Grid known, Grid silent, Grid expected, int reach) {
+  forEachCell([&](int x, int y, int z) {
+    if (known.at(x, y, z) != 0) silent.at(x, y, z) = 0;
+  });
+  forEachCell([&](int x, int y, int z) { silent.at(x, y, z) *= 2; });
+  forEachCell([&](int x, int y, int z) {
+    if (expected.at(x, y, z) == 0 && isNearOccupied(silent, x, y, z, reach))
+      expected.at(x, y, z) = 2;
+  });
+  return expected;
 }
 
 /// A free block with ragged ends in unknown space, and a few returns.
@@ -126,6 +157,23 @@ TEST(CredibleMap, OfAChangedMapIsThatOfAFreshOne) {
       grid.at(rng.below(kNx), rng.below(1 + 7 * round), rng.below(kNz)) =
           static_cast<std::uint8_t>(1 + rng.below(2));
     expectEqual(*credible.of(map.set(grid)), byBruteForce(grid, 7, 2));
+  }
+}
+
+TEST(CredibleMap, SilentVoxelsEndRaysUntilTheyAreKnown) {
+  Rng rng(34);
+  GrowingMap map;
+  CredibleMap credible({1.4, 0.4});
+  Grid grid;
+  Grid silent;
+  for (int round = 0; round < 6; ++round) {
+    for (int i = 0; i < 500; ++i)
+      grid.at(rng.below(kNx), rng.below(1 + 7 * round), rng.below(kNz)) =
+          static_cast<std::uint8_t>(1 + rng.below(4) / 3);
+    static_cast<void>(credible.of(map.set(grid)));
+    for (int i = 0; i < 200; ++i) silent.at(rng.below(kNx), rng.below(kNy), rng.below(kNz)) = 1;
+    expectEqual(*credible.of(map.lookInVain(silent)),
+                endedAtSilence(grid, silent, byBruteForce(grid, 7, 2), 2));
   }
 }
 

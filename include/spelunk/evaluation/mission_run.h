@@ -106,7 +106,8 @@ struct RunSetup {
   mission::MissionParams mission;
   terrain::TerrainParams terrain;
   Pose start;
-  AxisAlignedBox bounds;  ///< Of exploration.
+  /// Of exploration. A robot with a sensor that reports misses stays within the mesh besides.
+  AxisAlignedBox bounds;
   std::vector<NoGoZone> zones;
   std::uint64_t seed = 1;
   double time_limit_s = 900.0;  ///< Endurance by time; the battery may say less.

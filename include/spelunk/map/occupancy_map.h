@@ -7,6 +7,7 @@
 #include "spelunk/common/box.h"
 #include "spelunk/common/params.h"
 #include "spelunk/common/scan.h"
+#include "spelunk/common/sensor_model.h"
 #include "spelunk/map/frozen_map.h"
 #include "spelunk/map/occupancy.h"
 
@@ -79,6 +80,13 @@ class OccupancyMap {
   /// unknown (the robot stands there, so it is). Throws Precondition if the box is not finite.
   void markFree(const AxisAlignedBox& box);
 
+  /// From now on takes note of unknown voxels that scans of these sensors look into in vain
+  /// (FrozenMap::isSilent): from several places near by, and no ray came back from there. A voxel
+  /// that becomes known is none of them any more. Scans are told apart by Scan::sensor. A sensor
+  /// that reports misses needs no such notes: its rays make free space where they meet nothing.
+  /// `robot_height_m`: rays whose rows are farther apart than that are followed no farther.
+  void watchSilence(const std::vector<SensorModel>& sensors, double robot_height_m);
+
   [[nodiscard]] Occupancy at(const Eigen::Vector3d& point) const;
   [[nodiscard]] const MapParams& params() const;
 
@@ -96,6 +104,12 @@ class OccupancyMap {
   /// Replaces the content by a .bt or .ot file. Throws OutsideError if it is missing, not an
   /// octree, or of another resolution; the map is then unchanged.
   void load(const std::string& path);
+
+  /// Writes the silent voxels as the occupied ones of a .bt file; errors as those of save().
+  void saveSilence(const std::string& path) const;
+
+  /// Takes up the silent voxels of such a file, those so far kept; errors as those of load().
+  void loadSilence(const std::string& path);
 
   void clear();
   [[nodiscard]] std::size_t memoryBytes() const;

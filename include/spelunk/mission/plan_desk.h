@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "spelunk/common/rng.h"
+#include "spelunk/map/openings.h"
 #include "spelunk/mission/basis.h"
 #include "spelunk/mission/plan_job.h"
 #include "spelunk/mission/transitions.h"
@@ -92,6 +93,9 @@ class PlanDesk {
   /// Nobody knew another way home.
   void noteNoWayHome(const RunningJob& job, double now_s);
 
+  /// Openings that the robot leaves behind on its way home.
+  void noteOpenings(const std::vector<map::Opening>& openings);
+
   // --- What there is to see.
   struct Counts {
     int plans = 0;
@@ -106,6 +110,7 @@ class PlanDesk {
   }
 
  private:
+  void gatherRemaining();
   [[nodiscard]] bool wantsPlanInFlight(double now_s) const;
   [[nodiscard]] bool wantsSecondLook(const WayHome& way_home, double now_s) const;
   [[nodiscard]] RunningJob begin(RunningJob::Kind kind, double now_s);
@@ -130,7 +135,9 @@ class PlanDesk {
   std::vector<planners::PathReport> reports_;  ///< Not told to the planner yet.
   bool flies_reported_path_ = false;  ///< Whether the path that was reported last is the one flown.
   Counts counts_;
-  std::vector<planners::RemainingTarget> remaining_;
+  std::vector<planners::RemainingTarget> planner_left_;  ///< What the newest plan named.
+  std::vector<planners::RemainingTarget> openings_;
+  std::vector<planners::RemainingTarget> remaining_;  ///< Both.
 };
 
 }  // namespace spelunk::mission
