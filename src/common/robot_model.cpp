@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "spelunk/common/self_filter.h"
+
 namespace spelunk {
 
 double longestRange(const RobotModel& robot) {
@@ -26,6 +28,7 @@ std::vector<std::string> RobotModel::problems() const {
   if (kind != "aerial" && kind != "legged")
     found.push_back("robot '" + name + "': kind '" + kind + "' must be aerial or legged");
   if (sensors.empty()) found.push_back("robot '" + name + "': needs at least one sensor");
+  (void)selfFilterBoxes(*this, &found);
   return found;
 }
 
