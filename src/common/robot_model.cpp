@@ -6,6 +6,8 @@
 
 #include "spelunk/common/file_lookup.h"
 
+#include "spelunk/common/self_filter.h"
+
 namespace spelunk {
 namespace {
 
@@ -75,6 +77,7 @@ std::vector<std::string> RobotModel::problems() const {
   if (kind == "legged" && ride_height_m <= 0.0)
     found.push_back("robot.ride_height_m = " + toText(ride_height_m) +
                     ": a legged robot carries its base above the ground; say how high");
+  (void)selfFilterBoxes(*this, &found);
   return found;
 }
 

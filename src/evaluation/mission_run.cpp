@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "mail.h"
 #include "spelunk/common/contract.h"
+#include "spelunk/common/self_returns.h"
 #include "spelunk/common/stopwatch.h"
 
 namespace spelunk::evaluation {
@@ -39,6 +41,7 @@ struct MissionRun::Impl {
         simulator(setup.sim, setup.robot, mesh, setup.start, setup.seed),
         mission(setup.mission, setup.robot, setup.map, setup.seed, setup.terrain),
         bounds(boundsOf(run_setup, mesh)),
+        self_returns(setup.robot, setup.map.range_min_m),
         explored(mesh.bounds()),
         scans(setup.delays.scan_s),
         outcomes(setup.delays.plan_s),
@@ -55,6 +58,7 @@ struct MissionRun::Impl {
   void noteLeg();
   void step();
   void sense();
+  void takeOutSelfReturns(Scan& scan);
   void plan();
   void takeOver();
   [[nodiscard]] bool getsLost();
@@ -76,6 +80,7 @@ struct MissionRun::Impl {
   sim::Simulator simulator;
   mission::Mission mission;
   AxisAlignedBox bounds;  ///< Of exploration.
+  SelfReturns self_returns;
   ExploredVolume explored;
   Mail<Scan> scans;
   Mail<mission::PlanOutcome> outcomes;
@@ -98,12 +103,23 @@ void MissionRun::Impl::sense() {
     explored.add(scan);
     if (!getsLost()) scans.send(scan.scan, now());
   }
-  for (const Scan& scan : scans.take(now())) {
+  for (Scan& scan : scans.take(now())) {
+    takeOutSelfReturns(scan);
     mission.onScan(scan);
     record.map_update_ms.push_back(mission.status().last_map_update_ms);
   }
   mission.onOdometry(simulator.odometry());
   mission.onRemaining(remaining());
+}
+
+void MissionRun::Impl::takeOutSelfReturns(Scan& scan) {
+  for (const SensorModel& sensor : setup.robot.sensor_models) {
+    if (sensor.name != scan.sensor) continue;
+    const Eigen::Isometry3d mount = T_base_sensor(sensor);
+    scan.points = self_returns.without(scan.sensor, std::move(scan.points), mount,
+                                       scan.T_world_sensor * mount.inverse());
+  }
+  mission.noteInputs({"", self_returns.doubt(), self_returns.finding()});
 }
 
 bool MissionRun::Impl::getsLost() {

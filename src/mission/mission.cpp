@@ -71,6 +71,7 @@ Mission::Mission(const MissionParams& params, const RobotModel& robot,
 Mission::~Mission() = default;
 
 void Mission::onOdometry(const RobotState& state) { impl_->takeOdometry(state); }
+void Mission::noteInputs(const InputNotes& notes) { impl_->notes = notes; }
 map::MapUpdate Mission::onScan(const Scan& scan) { return impl_->takeScan(scan); }
 void Mission::onRemaining(double remaining_s) { impl_->takeRemaining(remaining_s); }
 

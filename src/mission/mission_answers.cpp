@@ -83,13 +83,15 @@ void Mission::Impl::noteNoPlan(const RunningJob& job, const planners::PlanResult
     return;
   }
   if (plan.status == PlanStatus::kNothingToGain)
-    return happens(Event::kNothingLeft, "explored: " + plan.reason);
+    return happens(Event::kNothingLeft,
+                   "explored: " + plan.reason + (notes.flaw.empty() ? "" : "; but " + notes.flaw));
   if (plan.status == PlanStatus::kBudgetSaysHome)
     return happens(Event::kEnduranceLow, "home by endurance: " + plan.reason);
   noteFailure(std::string(planners::toText(plan.status)) + ": " + plan.reason);
 }
 
-void Mission::Impl::noteFailure(const std::string& why) {
+void Mission::Impl::noteFailure(const std::string& fault) {
+  const std::string why = withDoubt(fault);
   if (desk.noteFailure(now)) return happens(Event::kNoPlanForLong, "no plan found: " + why);
   happens(Event::kNoPlan, "no plan (" + why + "): trying again");
 }

@@ -36,6 +36,7 @@ struct Mission::Impl {
   Answer emergencyStop();
   Answer setBounds(const AxisAlignedBox& box);
   [[nodiscard]] std::string startProblem();
+  [[nodiscard]] std::string withDoubt(const std::string& why) const;
   [[nodiscard]] std::optional<navigation::NavigationQuery> goToQuery(const Eigen::Vector3d& point);
   [[nodiscard]] std::string goToProblem(const Eigen::Vector3d& point);
   Answer goTo(const PointJob& job, const navigation::NavigationAnswer& answer);
@@ -79,7 +80,7 @@ struct Mission::Impl {
   void flyProposal(const Path& path, const Path& rest, const PlanOutcome& outcome);
   void refuse(const Verdict& verdict, const planners::PlanResult& plan);
   void noteNoPlan(const RunningJob& job, const planners::PlanResult& plan);
-  void noteFailure(const std::string& why);
+  void noteFailure(const std::string& fault);
   void noteNoWayHome(const RunningJob& job, const planners::PlanResult& home);
 
   [[nodiscard]] MissionStatus status() const;
@@ -111,6 +112,7 @@ struct Mission::Impl {
   double resume_s = 0.0;                 ///< Until then it holds, for people to see why.
   Event turned_for = Event::kHomeAsked;  ///< Why it goes home.
   double next_cause_check_s = 0.0;
+  InputNotes notes;
   // What there is to see of it.
   MissionState shown = MissionState::kIdle;
   std::string reason;

@@ -41,15 +41,25 @@ void Mission::Impl::takeRemaining(double remaining_s) {
     say(LogLevel::kWarn, "battery", "the reported endurance is not a number: it is not used");
 }
 
+/// Why there is no way for the robot, and what may be behind it.
+std::string Mission::Impl::withDoubt(const std::string& why) const {
+  return notes.doubt.empty() ? why : why + "; " + notes.doubt;
+}
+
 std::string Mission::Impl::startProblem() {
+  if (!notes.problem.empty()) return notes.problem;
   if (!watch.knowsPose()) return "no odometry yet: check the topic and the state estimation";
   if (watch.isTilted()) return "the robot lies on its side: help it up";
   const Eigen::Vector3d& position = watch.pose().position;
   if (const std::string problem = space.zones().problemAt(position); !problem.empty())
     return problem;
-  if (space.collidesAt(position))
-    return "start in collision: the map is occupied where the robot stands";
-  return "";
+  const Contact contact = space.contactAt(position);
+  if (contact.voxels == 0) return "";
+  return withDoubt("start in collision: " + std::to_string(contact.voxels) +
+                   " occupied voxels of the map touch the robot's body, " +
+                   spelunk::toText(space.bodyBox()) + " m around " + placeOf(position) +
+                   ", the nearest at " + placeOf(contact.nearest) +
+                   ": move the robot away from it, or correct robot.box_m or the odometry");
 }
 
 /// What the robot stands in, and some room around it, is free where it is unknown.

@@ -51,7 +51,7 @@ void Mission::Impl::updateWayHome() {
 }
 
 void Mission::Impl::checkInputs() {
-  const std::string problem = watch.problem(now);
+  const std::string problem = notes.problem.empty() ? watch.problem(now) : notes.problem;
   inputs_ok = problem.empty();
   if (inputs_ok) return;
   if (flight.active()) {
@@ -101,7 +101,8 @@ void Mission::Impl::checkAhead() {
   if (!gap_m) return;
   ++replans_obstacle;
   happens(Event::kObstacleAhead,
-          withNumber("new obstacle %.1f m ahead on the path: stopped, planning anew", *gap_m));
+          withDoubt(
+              withNumber("new obstacle %.1f m ahead on the path: stopped, planning anew", *gap_m)));
 }
 
 void Mission::Impl::checkGround() {

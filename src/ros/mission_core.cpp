@@ -20,4 +20,10 @@ double missionTime(MissionCore& core, const ::ros::Time& now) {
   return now_s;
 }
 
+void noteInputs(MissionCore& core, double now_s) {
+  const std::string problem =
+      core.clock_problem.empty() ? core.watch.waiting(now_s) : core.clock_problem;
+  core.mission.noteInputs({problem, core.doubt, core.flaw});
+}
+
 }  // namespace spelunk::bridge

@@ -9,6 +9,7 @@
 #include "spelunk/common/file_lookup.h"
 #include "spelunk/mission/run_config.h"
 #include "spelunk/planners/factory.h"
+#include "spelunk/ros/frame_name.h"
 #include "spelunk/ros/params.h"
 
 namespace spelunk::bridge {
@@ -23,6 +24,7 @@ Params readNodeParams(const PrivateParams& given) {
   Params params;
   tree.read("node", params);
   if (params.share_dir.empty()) params.share_dir = mission::shareDir();
+  params.world_frame = frameName(params.world_frame);
   return params;
 }
 
@@ -97,6 +99,7 @@ SimSetup loadSimSetup(const ::ros::NodeHandle& private_node) {
   const PrivateParams given = readPrivateParams(private_node);
   SimSetup setup;
   setup.node = readNodeParams<SimNodeParams>(given);
+  setup.node.base_frame = frameName(setup.node.base_frame);
   if (setup.node.worlds_dir.empty()) setup.node.worlds_dir = setup.node.share_dir + "/worlds";
   if (setup.node.cache_dir.empty()) setup.node.cache_dir = sim::defaultCacheDir();
   CloudParams cloud;

@@ -55,6 +55,7 @@ void PlannerNode::tick() {
     const auto job = core_.with([&](MissionCore& core) {
       const double now_s = missionTime(core, ::ros::Time::now());
       core.mission.onRemaining(core.endurance.remaining(now_s));
+      noteInputs(core, now_s);
       if (const auto command = core.mission.tick(now_s)) publish(core, *command);
       startIfWanted(core, now_s);
       core.watch.checkSilence(now_s);
@@ -89,7 +90,7 @@ void PlannerNode::startIfWanted(MissionCore& core, double now_s) {
     return;
   }
   if (!waits_since_s_) waits_since_s_ = now_s;
-  if (now_s - *waits_since_s_ > params_.silence_s && start_refusals_.allows(answer.reason, now_s))
+  if (now_s - *waits_since_s_ > params_.silence_s && start_refusals_.allows("start", now_s))
     log(LogLevel::kWarn, "not started yet: " + answer.reason);
 }
 
@@ -111,9 +112,23 @@ void PlannerNode::publishStatusIfChanged(MissionCore& core, double now_s) {
 void PlannerNode::publishStatus() {
   core_.with([&](MissionCore& core) {
     const ::ros::Time now = ::ros::Time::now();
-    outputs_.publishStatus(core.mission.status(), core.watch.current(core.clock.toMission(now)),
-                           now);
+    checkClock(core, now);
+    const std::string problem = core.clock_problem.empty()
+                                    ? core.watch.current(core.clock.toMission(now))
+                                    : core.clock_problem;
+    outputs_.publishStatus(core.mission.status(), problem, now);
   });
+}
+
+/// Here, where real time counts: without a ROS clock nothing else runs.
+void PlannerNode::checkClock(MissionCore& core, const ::ros::Time& now) {
+  const auto source =
+      ::ros::Time::isSystemTime() ? ClockWatch::Source::kSystem : ClockWatch::Source::kSimulated;
+  const double real_s = ::ros::SteadyTime::now().toSec();
+  core.clock_problem = clock_watch_.check(now, source, real_s);
+  if (core.clock_problem.empty()) return;
+  noteInputs(core, core.clock.toMission(now));
+  if (clock_throttle_.allows("clock", real_s)) log(LogLevel::kWarn, core.clock_problem);
 }
 
 MissionView PlannerNode::viewOf(MissionCore& core) const {

@@ -73,10 +73,12 @@ Rng PlannerServices::nextRng(const char* service) {
 bool PlannerServices::start(Trigger::Request& /*request*/, Trigger::Response& response) {
   return answering(response, &Trigger::Response::message, [&] {
     answer(core_.with([](MissionCore& core) {
+      const double now_s = missionTime(core, ::ros::Time::now());
+      noteInputs(core, now_s);
       const mission::Answer given = core.mission.start();
       if (given.accepted) {
         core.wants_start = false;
-        core.endurance.start(missionTime(core, ::ros::Time::now()));
+        core.endurance.start(now_s);
       }
       return given;
     }),

@@ -138,7 +138,8 @@ struct Simulator::Impl {
                  Rng(seed).fork("sim/odometry")),
         reference(start, robot.braking_deceleration_mps2) {
     for (const SensorModel& model : robot.sensor_models)
-      sensors.emplace_back(model, params.dust_returns, Rng(seed).fork("sim/sensor"));
+      sensors.emplace_back(model, params.dust_returns, Rng(seed).fork("sim/sensor"),
+                           params.self_returns_m);
   }
 
   std::unique_ptr<Vehicle> makeVehicle(const RobotModel& robot, const WorldMesh& mesh,

@@ -96,15 +96,14 @@ TEST(Visits, AreMadeByARobotThatMovesToAndFroAndLeavesNoTrail) {
   Visits visits;
   visits.expect({kTarget, kTarget, 30.0, 100.0});
   PlanRequest request;
-  request.last_outcome = PathOutcome::kReplaced;
   const Eigen::Vector3d away = kTarget + Eigen::Vector3d(0.0, 0.0, 1.0);
   for (const double time_s : {101.0, 102.0, 102.9}) {
     request.time_s = time_s;
     request.pose.position = time_s == 101.0 ? kTarget : away;
-    EXPECT_TRUE(visits.takeMade(request).empty()) << "it has not looked around there by " << time_s;
+    EXPECT_TRUE(visits.takeMade(request, PathOutcome::kReplaced).empty()) << "it has not looked around there by " << time_s;
   }
   request.time_s = 103.0;
-  EXPECT_EQ(visits.takeMade(request).size(), 1U);
+  EXPECT_EQ(visits.takeMade(request, PathOutcome::kReplaced).size(), 1U);
 }
 
 TEST(Visits, AreNotMadeWhereTheRobotWasStoppedOnItsWay) {
@@ -113,12 +112,10 @@ TEST(Visits, AreNotMadeWhereTheRobotWasStoppedOnItsWay) {
   PlanRequest request;
   request.time_s = 101.0;
   request.pose.position = kTarget;
-  request.last_outcome = PathOutcome::kReplaced;
-  EXPECT_TRUE(visits.takeMade(request).empty());
+  EXPECT_TRUE(visits.takeMade(request, PathOutcome::kReplaced).empty());
   request.time_s = 110.0;
   request.pose.position = kTarget + Eigen::Vector3d(0.0, 0.0, 1.0);
-  request.last_outcome = PathOutcome::kBlocked;
-  EXPECT_TRUE(visits.takeMade(request).empty());
+  EXPECT_TRUE(visits.takeMade(request, PathOutcome::kBlocked).empty());
 }
 
 TEST(Visits, KnowsWhereTheRobotHasBeen) {

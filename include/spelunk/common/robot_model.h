@@ -12,6 +12,10 @@ namespace spelunk {
 
 enum class RobotKind { kAerial, kLegged };
 
+/// The body's share of the safety box: half of it is margin, on both sides together. Returns from
+/// the body are never obstacles.
+inline constexpr double kBodyShare = 0.5;
+
 /// A robot as planner, mission and simulator know it (config/robots/*.yaml, section "robot").
 struct RobotModel {
   std::string name = "aerial";
@@ -30,6 +34,7 @@ struct RobotModel {
   double endurance_s = 900.0;                    ///< On a full battery, at cruising speed.
   std::vector<std::string> sensors{"lidar_16"};  ///< Names in config/sensors or paths.
   std::vector<SensorModel> sensor_models;        ///< Filled by loadRobot.
+  std::vector<std::string> self_filter_boxes_m;  ///< Base frame; see selfFilterBoxes().
 
   template <class Visitor>
   void visit(Visitor&& field) {
@@ -52,6 +57,9 @@ struct RobotModel {
     field("endurance_s", endurance_s, Bounds{1.0, 1e6},
           "how long a full battery lasts at cruising speed", Audience::kUser);
     field("sensors", sensors, Bounds{}, "names from config/sensors or paths of files",
+          Audience::kUser);
+    field("self_filter_boxes_m", self_filter_boxes_m, Bounds{},
+          "returns from its own parts: boxes in the base frame, each centre x, y, z, size x, y, z",
           Audience::kUser);
   }
   [[nodiscard]] std::vector<std::string> problems() const;

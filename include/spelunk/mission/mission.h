@@ -9,6 +9,7 @@
 #include "spelunk/map/occupancy_map.h"
 #include "spelunk/mission/answer.h"
 #include "spelunk/mission/command.h"
+#include "spelunk/mission/input_notes.h"
 #include "spelunk/mission/mission_params.h"
 #include "spelunk/mission/mission_status.h"
 #include "spelunk/mission/plan_job.h"
@@ -41,6 +42,9 @@ class Mission {
   void onOdometry(const RobotState& state);
   map::MapUpdate onScan(const Scan& scan);  ///< Into the map; re-checks path and way home.
   void onRemaining(double remaining_s);     ///< From the battery; else the time budget counts.
+
+  /// What the owner knows about inputs that the mission cannot see; replaces what it said before.
+  void noteInputs(const InputNotes& notes);
 
   // --- What people ask for.
   Answer start();

@@ -22,6 +22,7 @@ struct CloudParams {
   double outlier_stddevs = 2.0;
   double outlier_radius_m = 0.5;
   double voxel_size_m = 0.0;
+  std::string registered_sensor;
 
   template <class Visitor>
   void visit(Visitor&& field) {
@@ -37,13 +38,17 @@ struct CloudParams {
           "radius: where neighbours are looked for");
     field("voxel_size_m", voxel_size_m, Bounds{0.0, 5.0},
           "one point a voxel for dense sensors; 0: off");
+    field("registered_sensor", registered_sensor, Bounds{},
+          "which of robot.sensors took clouds that come in a fixed frame; empty: the only LiDAR");
   }
   [[nodiscard]] std::vector<std::string> problems() const;
 };
 
 /// The points of a cloud in its own frame, those that are not finite left out. Fields x, y, z may
-/// be float32 or float64 at any offset. Refused: missing fields, other types, big-endian data, a
-/// layout that does not fit the data, no points at all.
+/// be float32 or float64 at any offset, in either order of bytes. Steps that do not fit the data
+/// are taken from its size where that allows one answer only. Refused: missing fields, other
+/// types, a layout that does not fit the data, no points at all; `problem` continues "a cloud ..."
+/// and ends with the remedy.
 [[nodiscard]] FromMsg<std::vector<Eigen::Vector3f>> pointsFromMsg(
     const sensor_msgs::PointCloud2& cloud);
 

@@ -32,6 +32,7 @@ struct SimParams {
   double motion_power_w_per_mps2 = 12.0;  ///< Added times speed squared.
   double battery_wh = 0.0;                ///< 0: what robot.endurance_s at cruising speed needs.
   double dust_returns = 0.0;              ///< Mean share of rays that end early in dust.
+  double self_returns_m = 0.0;            ///< Radius of a hoop around the robot that it sees.
   double odometry_drift = 0.0;            ///< Metres of drift a metre flown (1 sigma).
   double odometry_noise_m = 0.0;          ///< White noise of the position (1 sigma).
   WalkerParams walker;                    ///< Body of a legged robot (section "walker").
@@ -57,6 +58,8 @@ struct SimParams {
           "times speed squared");
     field("battery_wh", battery_wh, Bounds{0.0, 1e5}, "0: from robot.endurance_s");
     field("dust_returns", dust_returns, Bounds{0.0, 1.0}, "share of rays that dust returns");
+    field("self_returns_m", self_returns_m, Bounds{0.0, 5.0},
+          "radius of a hoop of the robot, 0.1 m high, in the way of its sensors; 0: none");
     field("odometry_drift", odometry_drift, Bounds{0.0, 0.2}, "m a metre, 1 sigma");
     field("odometry_noise_m", odometry_noise_m, Bounds{0.0, 1.0}, "white, 1 sigma");
   }
