@@ -115,6 +115,15 @@ TEST_F(SeenWayHome, IsNotReliedUponAtTheEndOfTheEndurance) {
   EXPECT_TRUE(fliesBack(flight));
 }
 
+TEST_F(CutTrail, AskedHomeFromAStandstillItComesHomeAndSaysNothingByHalves) {
+  ScriptedFlight flight(twoGalleries(), kStart, planner_);
+  flyOut(flight);
+  ASSERT_TRUE(flight.mission().pause().accepted);
+  flight.flyFor(3.0);
+  ASSERT_TRUE(flight.mission().home().accepted);
+  EXPECT_TRUE(flight.flyToTheEnd(flight.now() + 60.0)) << flight.mission().status().reason;
+}
+
 TEST_F(CutTrail, AnswersThatTakeSecondsAreWaitedFor) {
   ScriptedFlight flight(twoGalleries(), kStart, planner_);
   flyOut(flight);
