@@ -63,8 +63,8 @@ void expectLookedAtAndLeft(const RunRecord& record, const Pose& start, double en
   const std::vector<Eigen::Vector3d> openings = openingsOf(record);
   ASSERT_EQ(openings.size(), 1U);
   EXPECT_NEAR(openings[0].x(), 40.0, 1.0);
-  EXPECT_NEAR(openings[0].y(), 2.5, 1.0);
-  EXPECT_NEAR(openings[0].z(), 1.75, 1.0);
+  EXPECT_NEAR(openings[0].y(), 2.5, 2.5);  // within the portal
+  EXPECT_NEAR(openings[0].z(), 1.75, 1.75);
   // Once to see the gallery, once to look at the portal, once for corners that were passed by.
   EXPECT_LT(record.path_length_m, 3.0 * thereAndBack(start));
   EXPECT_LT(record.mission_time_s, 0.5 * endurance_s);
@@ -101,21 +101,18 @@ TEST(PortalMission, ABranchIsExploredThoughThePortalLiesOnTheWay) {
   EXPECT_TRUE(record.returned_home);
   EXPECT_EQ(record.outcome.find("explored: "), 0U) << record.outcome;
   EXPECT_EQ(openingsOf(record).size(), 1U);
-  EXPECT_GT(record.explored_volume_m3, 0.9 * (40.0 + 30.0) * 4.0 * 3.5);
-  double farthest_y = 0.0;
-  for (const TimelineRow& row : record.timeline)
-    farthest_y = std::max(farthest_y, row.pose.position.y());
-  EXPECT_GT(farthest_y, 15.0);
+  const double layer_m2 = 2.0 * (4.0 + 3.5) * 0.2;  // hit voxels count as well
+  EXPECT_GT(record.explored_volume_m3, 0.9 * (40.0 + 30.0) * (4.0 * 3.5 + layer_m2));
 }
 
 TEST(PortalMission, ARobotThatSeesTheOpenStaysWithinTheMesh) {
-  const Flight flight =
-      fly(test::galleryWithPortal(), "inspector", "gbplanner", {{36.0, 2.5, 1.5}, 0.0}, 400.0,
-          {"map.range_max_m=4", "sensor.sphere.columns=90", "sensor.sphere.rows=45"});
+  const Flight flight = fly(test::galleryWithPortal(), "inspector", "informed",
+                            {{36.0, 2.5, 1.5}, 0.0}, 200.0, {"map.range_max_m=4"});
   EXPECT_TRUE(flight.record.returned_home) << flight.record.outcome;
   double farthest_x = 0.0;
   for (const TimelineRow& row : flight.record.timeline)
     farthest_x = std::max(farthest_x, row.pose.position.x());
+  EXPECT_GT(farthest_x, 36.5);
   EXPECT_LT(farthest_x, 40.0);
   EXPECT_TRUE(openingsOf(flight.record).empty());
 }
@@ -170,7 +167,7 @@ TEST(PortalMission, TheLastThirdOfTheEnduranceBringsSomethingOrIsNotFlown) {
       {"branch", {test::galleryWithPortalAndBranch(), {{3.0, 2.0, 1.5}, 0.0}}}};
   for (const auto& [name, world] : worlds)
     for (const char* planner : {"gbplanner", "frontier_nearest"}) {
-      const Flight flight = fly(world.first, "aerial", planner, world.second, 150.0);
+      const Flight flight = fly(world.first, "aerial", planner, world.second, kEndurance_s);
       EXPECT_TRUE(flight.record.returned_home) << name << ": " << flight.record.outcome;
       EXPECT_GE(lastThird(flight).value_or(1.0), 0.01) << name << ", " << planner;
     }
