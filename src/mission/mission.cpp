@@ -26,6 +26,7 @@ Mission::Impl::Impl(const MissionParams& mission_params, const RobotModel& robot
       basis{params, robot, watch, endurance, flight, space},
       way_home(basis),
       ground(basis, terrain_params),
+      vertical(basis),
       point(basis),
       desk(basis, Rng(seed).fork("mission")) {}
 

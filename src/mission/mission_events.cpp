@@ -29,6 +29,11 @@ void Mission::Impl::happens(Event event, const std::string& why) {
       end_reason.clear();
       desk.beginExploring(now);
       return show(MissionState::kExplore, why);
+    case Action::kClimb:
+      if (before != Task::kTakeOff) vertical.begin();
+      return show(MissionState::kTakeOff, why);
+    case Action::kDescend:
+      return show(MissionState::kLand, why);
     case Action::kHold:
       return hold(event, why);
     case Action::kBackOff:
@@ -100,6 +105,8 @@ void Mission::Impl::fly(const Leg& leg) {
   flight.fly(leg, watch.pose(), now);
   way_home.refreshAt(now);
   desk.noteFlown();
+  if (task == Task::kTakeOff) return show(MissionState::kTakeOff, "climbing");
+  if (task == Task::kLand) return show(MissionState::kLand, "going down");
   switch (leg.kind) {
     case PathKind::kLocal:
       return show(MissionState::kExplore, "local path");

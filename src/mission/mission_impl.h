@@ -12,6 +12,7 @@
 #include "spelunk/mission/point_flight.h"
 #include "spelunk/mission/proposal.h"
 #include "spelunk/mission/transitions.h"
+#include "spelunk/mission/vertical_flight.h"
 #include "spelunk/mission/way_home.h"
 
 namespace spelunk::mission {
@@ -67,7 +68,9 @@ struct Mission::Impl {
   void backOff();
   void checkEndurance();
   void checkCause();
+  void stepTakeOff();
   void stepHome();
+  void stepLanding();
   void stepPoint();
   void askForPlan();
 
@@ -102,6 +105,7 @@ struct Mission::Impl {
   const Basis basis;
   WayHome way_home;
   GroundWatch ground;
+  VerticalFlight vertical;
   PointFlight point;
   PlanDesk desk;
 

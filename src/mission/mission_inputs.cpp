@@ -89,6 +89,8 @@ Answer Mission::Impl::start() {
   }
   takeOff();
   happens(Event::kStartAsked, "started");
+  if (isAtRest() && vertical.isNeeded())
+    happens(Event::kOnGround, "taking off: climbing to where there is room");
   return {true, "exploring"};
 }
 

@@ -32,7 +32,9 @@ std::optional<Command> Mission::Impl::tick(double now_s) {
   backOff();         // before anything plans: plans from beside bad ground fail
   checkEndurance();  // after all stops: a stop changes the way home, and then home comes first
   checkCause();      // the same for what the robot turned home for and is gone
+  stepTakeOff();     // before anything that needs room around the robot
   stepHome();        // before plans: a robot that is at home needs none
+  stepLanding();     // at once when home is reached
   stepPoint();       // the same for a flight to a point
   askForPlan();      // last: a plan begins from what was decided above
   return flight.takeCommand();
@@ -138,9 +140,25 @@ void Mission::Impl::checkCause() {
 
 void Mission::Impl::stepHome() {
   if (task != Task::kHome || flight.active() || !mayMove()) return;
-  if (way_home.isAtHome()) return happens(Event::kAtHome, end_reason);
+  if (way_home.isAtHome())
+    return happens(vertical.hasStand() ? Event::kOverStand : Event::kAtHome, end_reason);
   const double pause_s = shown == MissionState::kHold ? kHomeRetry_s : 0.0;
   if (isAtRest() && now >= flight.holdsSince() + pause_s) launchHome();
+}
+
+void Mission::Impl::stepTakeOff() {
+  if (task != Task::kTakeOff || flight.active() || !mayMove() || !isAtRest()) return;
+  if (const auto climb = vertical.findClimb()) return fly(*climb);
+  // On the ground the robot's box has no room: home is above it.
+  if (!space.isTrailClear({way_home.home()}, robot.box_m)) way_home.begin();
+  happens(Event::kUp, "took off");
+}
+
+void Mission::Impl::stepLanding() {
+  if (task != Task::kLand || flight.active() || !mayMove() || !isAtRest()) return;
+  if (vertical.hasLanded()) return happens(Event::kDown, end_reason);
+  if (const auto down = vertical.findLanding()) return fly(*down);
+  happens(Event::kDown, end_reason + "; hovers: something lies where it took off");
 }
 
 void Mission::Impl::stepPoint() {

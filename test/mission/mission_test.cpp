@@ -401,5 +401,42 @@ TEST_F(CorridorMission, LookingAtPlansInBetweenChangesNothing) {
   EXPECT_EQ(ends[1], ends[3]);
 }
 
+/// Starts so near to the floor that the safety box touches it.
+class StartOnTheFloor : public CorridorMission, public testing::WithParamInterface<double> {
+ protected:
+  void SetUp() override {
+    CorridorMission::SetUp();
+    planner_.on_plan = [](const planners::PlanRequest& request) {
+      if (request.pose.position.x() > 15.0)
+        return ScriptedPlanner::none(PlanStatus::kNothingToGain);
+      Path path{request.pose, request.pose};
+      path.back().position.x() += 6.0;
+      return ScriptedPlanner::path(path, PathKind::kLocal);
+    };
+  }
+};
+
+TEST_P(StartOnTheFloor, TakesOffExploresComesHomeAndLands) {
+  const Pose stand{{3.0, 2.5, 1.0 + GetParam()}, 0.0};
+  ScriptedFlight flight(test::corridorWorld(30.0), stand, planner_);
+  ASSERT_TRUE(flight.start().accepted) << flight.mission().status().reason;
+  EXPECT_EQ(flight.mission().status().state, MissionState::kTakeOff);
+  double highest_m = 0.0;
+  bool landed = false;
+  while (flight.mission().status().state != MissionState::kDone && flight.now() < 120.0) {
+    flight.step();
+    highest_m = std::max(highest_m, flight.state().pose.position.z());
+    landed = landed || flight.mission().status().state == MissionState::kLand;
+  }
+  ASSERT_EQ(flight.mission().status().state, MissionState::kDone)
+      << flight.mission().status().reason;
+  EXPECT_GT(highest_m, stand.position.z() + 0.3);
+  EXPECT_GT(flight.mission().status().distance_m, 20.0) << flight.mission().status().end_reason;
+  EXPECT_TRUE(landed);
+  EXPECT_LT(distance(flight.state().pose, stand), 0.3);
+}
+
+INSTANTIATE_TEST_SUITE_P(Heights, StartOnTheFloor, testing::Values(0.12, 0.18));
+
 }  // namespace
 }  // namespace spelunk::mission

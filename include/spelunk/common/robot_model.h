@@ -31,6 +31,7 @@ struct RobotModel {
   double yaw_acceleration_max_radps2 = 3.0;
   double braking_deceleration_mps2 = 2.5;        ///< What an emergency stop reaches for sure.
   double reaction_time_s = 0.3;                  ///< From a new obstacle seen to braking.
+  double take_off_height_m = 1.0;                ///< Above where it stood; aerial only.
   double endurance_s = 900.0;                    ///< On a full battery, at cruising speed.
   std::vector<std::string> sensors{"lidar_16"};  ///< Names in config/sensors or paths.
   std::vector<SensorModel> sensor_models;        ///< Filled by loadRobot.
@@ -54,6 +55,8 @@ struct RobotModel {
     field("braking_deceleration_mps2", braking_deceleration_mps2, Bounds{0.1, 30.0},
           "sure deceleration of a stop");
     field("reaction_time_s", reaction_time_s, Bounds{0.0, 5.0}, "from seeing to braking");
+    field("take_off_height_m", take_off_height_m, Bounds{0.1, 20.0},
+          "climbs so high above where it stood before it flies on (aerial)");
     field("endurance_s", endurance_s, Bounds{1.0, 1e6},
           "how long a full battery lasts at cruising speed", Audience::kUser);
     field("sensors", sensors, Bounds{}, "names from config/sensors or paths of files",
