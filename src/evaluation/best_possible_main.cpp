@@ -48,6 +48,8 @@ void survey(const Options& options) {
                                             spelunk::sim::defaultCacheDir());
   const spelunk::Pose start = spelunk::evaluation::startOf(options.start, options.world, mesh);
   const spelunk::evaluation::ExplorationBound bound(mesh, start, config.robot);
+  if (const auto leak = bound.leak())
+    std::cerr << "best_possible: " << textOf(*leak, mesh.name) << '\n';
   const std::vector<double> over = bound.over(options.time_limit_s);
   writeBound(over, options.out + "/bound.csv");
   const spelunk::sim::MeshScene scene(mesh);

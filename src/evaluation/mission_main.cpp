@@ -15,7 +15,6 @@
 #include "spelunk/common/pin_math.h"
 #include "spelunk/evaluation/mission_run.h"
 #include "spelunk/evaluation/plan_view.h"
-#include "spelunk/evaluation/reachable_volume.h"
 #include "spelunk/evaluation/run_report.h"
 #include "spelunk/mission/run_config.h"
 #include "spelunk/planners/factory.h"
@@ -129,13 +128,20 @@ void plot(const std::string& share_dir, const std::string& out) {
                  "no exploration.png: scripts/plot_mission.py says why (python3-matplotlib draws)");
 }
 
-void sayResult(const spelunk::evaluation::RunRecord& record, double reachable_m3,
-               const std::string& out) {
+/// What was seen through cracks and holes of the mesh, if a cubic metre or more.
+std::string textOfOutside(const spelunk::evaluation::RunRecord& record) {
+  if (record.explored_outside_m3 < 1.0) return "";
+  return " (and " + std::to_string(std::lround(record.explored_outside_m3)) +
+         " m3 outside, through cracks or holes of the mesh)";
+}
+
+void sayResult(const spelunk::evaluation::RunRecord& record, const std::string& out) {
   std::printf(
-      "\n%s\nexplored %.0f m3 of %.0f m3 reachable on %.0f m in %.0f s "
+      "\n%s\nexplored %.0f m3 of %.0f m3 reachable%s on %.0f m in %.0f s "
       "(%.1f s of wall time); collisions %d; %s\nwritten to %s\n",
-      record.outcome.c_str(), record.explored_volume_m3, reachable_m3, record.path_length_m,
-      record.mission_time_s, record.wall_time_s, record.collisions,
+      record.outcome.c_str(), record.explored_volume_m3, record.reachable.total_m3,
+      textOfOutside(record).c_str(), record.path_length_m, record.mission_time_s,
+      record.wall_time_s, record.collisions,
       record.returned_home
           ? ("home with " + std::to_string(static_cast<int>(record.remaining_at_home_s)) +
              " s left")
@@ -162,17 +168,17 @@ int fly(const Options& options, bool quiet) {
   for (const std::string& leg : options.go_to)
     setup.legs.push_back(legFrom(leg, loaded.config.navigation));
   spelunk::evaluation::MissionRun run(setup, mesh, *loaded.planner);
+  if (const auto leak = run.reachable().leak)
+    spelunk::log(spelunk::LogLevel::kWarn, textOf(*leak, mesh.name));
   const auto record =
       quiet ? run.fly() : run.fly([](const spelunk::evaluation::Progress& p) { show(p); });
-  const auto reachable = spelunk::evaluation::reachableVolume(mesh, setup.start.position);
-  spelunk::evaluation::writeReport(options.out,
-                                   {options.planner, options.world, options.robot, options.seed,
-                                    options.time_limit_s, reachable.total_m3},
-                                   record);
+  spelunk::evaluation::writeReport(
+      options.out,
+      {options.planner, options.world, options.robot, options.seed, options.time_limit_s}, record);
   run.mission().map().save(options.out + "/map.bt");
   spelunk::evaluation::writePlanView(*run.mission().map().freeze(), options.out + "/.plan_view");
   plot(loaded.share_dir, options.out);
-  if (!quiet) sayResult(record, reachable.total_m3, options.out);
+  if (!quiet) sayResult(record, options.out);
   return record.ended_as_it_may ? EXIT_SUCCESS : kExitStranded;
 }
 

@@ -26,6 +26,7 @@ struct MissionRun::Impl {
         planner(run_planner),
         simulator(setup.sim, setup.robot, mesh, setup.start, setup.seed),
         mission(setup.mission, setup.robot, setup.map, setup.seed, setup.terrain),
+        reachable(reachableSpace(mesh, setup.start.position)),
         explored(mesh.bounds()),
         scans(setup.delays.scan_s),
         outcomes(setup.delays.plan_s),
@@ -62,6 +63,7 @@ struct MissionRun::Impl {
   planners::ExplorationPlanner& planner;
   sim::Simulator simulator;
   mission::Mission mission;
+  ReachableSpace reachable;
   ExploredVolume explored;
   Mail<Scan> scans;
   Mail<mission::PlanOutcome> outcomes;
@@ -209,8 +211,8 @@ void MissionRun::Impl::addTimelineRow() {
   const Pose pose = simulator.trueState().pose;
   const double clearance_m =
       simulator.scene().boxDistance(pose.position, simulator.bodySize(), kClearanceLimit_m);
-  record.timeline.push_back({now(), explored.volume_m3(), record.path_length_m, pose, remaining(),
-                             mission.status().state, clearance_m});
+  record.timeline.push_back({now(), explored.partedBy(reachable).inside_m3, record.path_length_m,
+                             pose, remaining(), mission.status().state, clearance_m});
 }
 
 Progress MissionRun::Impl::progress() const {
@@ -255,7 +257,10 @@ void MissionRun::Impl::finish() {
   const mission::MissionStatus status = mission.status();
   const Pose pose = simulator.trueState().pose;
   record.mission_time_s = now();
-  record.explored_volume_m3 = explored.volume_m3();
+  const SeenVolume seen = explored.partedBy(reachable);
+  record.explored_volume_m3 = seen.inside_m3;
+  record.explored_outside_m3 = seen.outside_m3;
+  record.reachable = volumeOf(reachable);
   record.collisions = simulator.collisions().episodes;
   record.collision_s = simulator.collisions().seconds;
   record.falls = simulator.walkerCount().falls;
@@ -303,6 +308,8 @@ MissionRun::~MissionRun() = default;
 RunRecord MissionRun::fly(const std::function<void(const Progress&)>& show) {
   return impl_->fly(show);
 }
+
+ReachableVolume MissionRun::reachable() const { return volumeOf(impl_->reachable); }
 
 mission::Mission& MissionRun::mission() { return impl_->mission; }
 
