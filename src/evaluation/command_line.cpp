@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include "spelunk/common/contract.h"
+#include "spelunk/sim/start_proposal.h"
 
 namespace spelunk::evaluation {
 
@@ -19,11 +20,10 @@ std::optional<std::vector<double>> numbersIn(const std::string& text, std::size_
   return values.size() == count ? std::optional(values) : std::nullopt;
 }
 
-Pose startOf(const std::string& text, const std::string& world, const sim::WorldMesh& mesh) {
+Pose startOf(const std::string& text, const sim::WorldMesh& mesh, const Eigen::Vector3d& robot_m) {
   if (text.empty()) {
     if (mesh.start) return *mesh.start;
-    throw OutsideError("world '" + world +
-                       "' says no start: give --start x,y,z,yaw or a <name>.json beside the mesh");
+    throw OutsideError(sim::missingStartText(mesh, robot_m, "--start "));
   }
   const auto values = numbersIn(text, 4);
   if (!values)

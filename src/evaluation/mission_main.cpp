@@ -38,6 +38,8 @@ struct Options {
   double time_limit_s = 900.0;
   std::string out = "mission_out";
   std::string start;
+  double world_scale = 0.0;  ///< 0: as the world itself says.
+  std::string world_up;
   std::vector<std::string> go_to;
   std::vector<std::string> assignments;
 };
@@ -153,15 +155,17 @@ void sayResult(const spelunk::evaluation::RunRecord& record, const std::string& 
 int fly(const Options& options, bool quiet) {
   Loaded loaded = load(options);
   spelunk::evaluation::requireWritable(options.out);
-  const auto mesh = spelunk::sim::openWorld(options.world, loaded.share_dir + "/worlds",
-                                            spelunk::sim::defaultCacheDir());
+  const auto mesh = spelunk::sim::openWorld(
+      options.world, loaded.share_dir + "/worlds", spelunk::sim::defaultCacheDir(),
+      spelunk::sim::meshFrameOf(options.world_scale, options.world_up));
   spelunk::evaluation::RunSetup setup;
   setup.robot = loaded.config.robot;
   setup.sim = loaded.sim;
   setup.map = loaded.config.map;
   setup.mission = loaded.config.mission;
   setup.terrain = loaded.config.terrain;
-  setup.start = spelunk::evaluation::startOf(options.start, options.world, mesh);
+  setup.start = spelunk::evaluation::startOf(options.start, mesh, loaded.config.robot.box_m);
+  if (mesh.exploration_bounds) setup.bounds = *mesh.exploration_bounds;
   setup.seed = options.seed;
   setup.time_limit_s = options.time_limit_s;
   setup.delays = loaded.delays;
@@ -203,6 +207,10 @@ int main(int argc, char** argv) {
                  "x,y,z: fly there instead of exploring; several: one after the other; "
                  "x,y,z,method says how (adaptive, rrt_star, plain, plain_short)")
       ->take_all();
+  app.add_option("--world-scale", options.world_scale,
+                 "metres a unit of the mesh, 0.001 for millimetres; wins over its <name>.json");
+  app.add_option("--world-up", options.world_up,
+                 "axis of the mesh that points up: x, y or z; wins over its <name>.json");
   app.add_option("--set", options.assignments, "section.name=value, any parameter")->take_all();
   app.add_flag("--list-params", list_params, "print all parameters and leave");
   app.add_flag("--quiet", quiet, "no progress line");

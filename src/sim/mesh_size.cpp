@@ -4,6 +4,8 @@
 #include <cmath>
 #include <sstream>
 
+#include "spelunk/sim/start_check.h"
+
 namespace spelunk::sim {
 namespace {
 
@@ -67,6 +69,10 @@ std::string sizeText(const AxisAlignedBox& bounds) {
       text << std::llround(size(k));
   }
   return text.str() + " m";
+}
+
+std::string boundsText(const AxisAlignedBox& bounds) {
+  return sizeText(bounds) + " from " + textOf(bounds.min) + " to " + textOf(bounds.max);
 }
 
 std::string sizeAdvice(const AxisAlignedBox& bounds) {
