@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include "spelunk/common/contract.h"
+#include "spelunk/sim/start_proposal.h"
 
 namespace spelunk::evaluation {
 
@@ -23,11 +24,10 @@ std::string whyNotFinite(const std::string& text) {
   return numbersIn(text, 1) ? "" : "'" + text + "' is no finite number";
 }
 
-Pose startOf(const std::string& text, const std::string& world, const sim::WorldMesh& mesh) {
+Pose startOf(const std::string& text, const sim::WorldMesh& mesh, const Eigen::Vector3d& robot_m) {
   if (text.empty()) {
     if (mesh.start) return *mesh.start;
-    throw OutsideError("world '" + world +
-                       "' says no start: give --start x,y,z,yaw or a <name>.json beside the mesh");
+    throw OutsideError(sim::missingStartText(mesh, robot_m, "--start "));
   }
   const auto values = numbersIn(text, 4);
   if (!values)

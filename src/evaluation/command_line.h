@@ -17,8 +17,9 @@ namespace spelunk::evaluation {
 /// number lies in every range.
 [[nodiscard]] std::string whyNotFinite(const std::string& text);
 
-/// The start a program is told by "x,y,z,yaw", else the world's own. Throws OutsideError.
-[[nodiscard]] Pose startOf(const std::string& text, const std::string& world,
-                           const sim::WorldMesh& mesh);
+/// The start a program is told by "x,y,z,yaw", else the world's own. Throws OutsideError, which
+/// proposes a place with room for a robot of `robot_m` if neither says one.
+[[nodiscard]] Pose startOf(const std::string& text, const sim::WorldMesh& mesh,
+                           const Eigen::Vector3d& robot_m);
 
 }  // namespace spelunk::evaluation

@@ -20,7 +20,6 @@
 #include "spelunk/common/pin_math.h"
 #include "spelunk/evaluation/mission_run.h"
 #include "spelunk/evaluation/plan_view.h"
-#include "spelunk/evaluation/reachable_volume.h"
 #include "spelunk/evaluation/run_report.h"
 #include "spelunk/mission/run_config.h"
 #include "spelunk/planners/factory.h"
@@ -58,6 +57,8 @@ struct Options {
   double time_limit_s = 900.0;
   std::string out = "mission_out";
   std::string start;
+  double world_scale = 0.0;  ///< 0: as the world itself says.
+  std::string world_up;
   std::vector<std::string> go_to;
   std::vector<std::string> assignments;
 };
@@ -154,12 +155,20 @@ void plot(const std::string& share_dir, const std::string& out) {
                  "no exploration.png: scripts/plot_mission.py says why (python3-matplotlib draws)");
 }
 
-void sayResult(const spelunk::evaluation::RunRecord& record, double reachable_m3) {
+/// What was seen through cracks and holes of the mesh, if a cubic metre or more.
+std::string textOfOutside(const spelunk::evaluation::RunRecord& record) {
+  if (record.explored_outside_m3 < 1.0) return "";
+  return " (and " + std::to_string(std::lround(record.explored_outside_m3)) +
+         " m3 outside, through cracks or holes of the mesh)";
+}
+
+void sayResult(const spelunk::evaluation::RunRecord& record) {
   std::printf(
-      "\n%s\nexplored %.0f m3 of %.0f m3 reachable on %.0f m in %.0f s "
+      "\n%s\nexplored %.0f m3 of %.0f m3 reachable%s on %.0f m in %.0f s "
       "(%.1f s of wall time); collisions %d; %s\n",
-      record.outcome.c_str(), record.explored_volume_m3, reachable_m3, record.path_length_m,
-      record.mission_time_s, record.wall_time_s, record.collisions,
+      record.outcome.c_str(), record.explored_volume_m3, record.reachable.total_m3,
+      textOfOutside(record).c_str(), record.path_length_m, record.mission_time_s,
+      record.wall_time_s, record.collisions,
       record.returned_home
           ? ("home with " + std::to_string(static_cast<int>(record.remaining_at_home_s)) +
              " s left")
@@ -171,32 +180,34 @@ int fly(const Options& options, bool quiet) {
   Loaded loaded = load(options);
   spelunk::evaluation::requireWritable(options.out);
   const spelunk::evaluation::FolderLock lock(options.out);
-  const auto mesh = spelunk::sim::openWorld(options.world, loaded.share_dir + "/worlds",
-                                            spelunk::sim::defaultCacheDir());
+  const auto mesh = spelunk::sim::openWorld(
+      options.world, loaded.share_dir + "/worlds", spelunk::sim::defaultCacheDir(),
+      spelunk::sim::meshFrameOf(options.world_scale, options.world_up));
   spelunk::evaluation::RunSetup setup;
   setup.robot = loaded.config.robot;
   setup.sim = loaded.sim;
   setup.map = loaded.config.map;
   setup.mission = loaded.config.mission;
   setup.terrain = loaded.config.terrain;
-  setup.start = spelunk::evaluation::startOf(options.start, options.world, mesh);
+  setup.start = spelunk::evaluation::startOf(options.start, mesh, loaded.config.robot.box_m);
+  if (mesh.exploration_bounds) setup.bounds = *mesh.exploration_bounds;
   setup.seed = options.seed;
   setup.time_limit_s = options.time_limit_s;
   setup.delays = loaded.delays;
   for (const std::string& leg : options.go_to)
     setup.legs.push_back(legFrom(leg, loaded.config.navigation));
   spelunk::evaluation::MissionRun run(setup, mesh, *loaded.planner);
+  if (const auto leak = run.reachable().leak)
+    spelunk::log(spelunk::LogLevel::kWarn, textOf(*leak, mesh.name));
   catchInterrupts();
   const auto record = run.fly([&](const spelunk::evaluation::Progress& progress) {
     if (!quiet) show(progress);
     if (interrupted_by != 0) run.stop("interrupted by "s + strsignal(interrupted_by));
   });
-  const auto reachable = spelunk::evaluation::reachableVolume(mesh, setup.start.position);
-  if (!quiet) sayResult(record, reachable.total_m3);
-  spelunk::evaluation::writeReport(options.out,
-                                   {options.planner, options.world, options.robot, options.seed,
-                                    options.time_limit_s, reachable.total_m3},
-                                   record);
+  if (!quiet) sayResult(record);
+  spelunk::evaluation::writeReport(
+      options.out,
+      {options.planner, options.world, options.robot, options.seed, options.time_limit_s}, record);
   run.mission().map().save(options.out + "/map.bt");
   spelunk::evaluation::writePlanView(*run.mission().map().freeze(), options.out + "/.plan_view");
   plot(loaded.share_dir, options.out);
@@ -230,6 +241,10 @@ int main(int argc, char** argv) {
                  "x,y,z: fly there instead of exploring; several: one after the other; "
                  "x,y,z,method says how (adaptive, rrt_star, plain, plain_short)")
       ->take_all();
+  app.add_option("--world-scale", options.world_scale,
+                 "metres a unit of the mesh, 0.001 for millimetres; wins over its <name>.json");
+  app.add_option("--world-up", options.world_up,
+                 "axis of the mesh that points up: x, y or z; wins over its <name>.json");
   app.add_option("--set", options.assignments, "section.name=value, any parameter")->take_all();
   app.add_flag("--list-params", list_params, "print all parameters and leave");
   app.add_flag("--quiet", quiet, "no progress line");

@@ -42,6 +42,7 @@ struct MissionRun::Impl {
         mission(setup.mission, setup.robot, setup.map, setup.seed, setup.terrain),
         bounds(boundsOf(run_setup, mesh)),
         self_returns(setup.robot, setup.map.range_min_m),
+        reachable(reachableSpace(mesh, setup.start.position)),
         explored(mesh.bounds()),
         scans(setup.delays.scan_s),
         outcomes(setup.delays.plan_s),
@@ -81,6 +82,7 @@ struct MissionRun::Impl {
   mission::Mission mission;
   AxisAlignedBox bounds;  ///< Of exploration.
   SelfReturns self_returns;
+  ReachableSpace reachable;
   ExploredVolume explored;
   Mail<Scan> scans;
   Mail<mission::PlanOutcome> outcomes;
@@ -240,8 +242,8 @@ void MissionRun::Impl::addTimelineRow() {
   const Pose pose = simulator.trueState().pose;
   const double clearance_m =
       simulator.scene().boxDistance(pose.position, simulator.bodySize(), kClearanceLimit_m);
-  record.timeline.push_back({now(), explored.volume_m3(), record.path_length_m, pose, remaining(),
-                             mission.status().state, clearance_m});
+  record.timeline.push_back({now(), explored.partedBy(reachable).inside_m3, record.path_length_m,
+                             pose, remaining(), mission.status().state, clearance_m});
 }
 
 Progress MissionRun::Impl::progress() const {
@@ -287,7 +289,10 @@ void MissionRun::Impl::finish() {
   const mission::MissionStatus status = mission.status();
   const Pose pose = simulator.trueState().pose;
   record.mission_time_s = now();
-  record.explored_volume_m3 = explored.volume_m3();
+  const SeenVolume seen = explored.partedBy(reachable);
+  record.explored_volume_m3 = seen.inside_m3;
+  record.explored_outside_m3 = seen.outside_m3;
+  record.reachable = volumeOf(reachable);
   record.collisions = simulator.collisions().episodes;
   record.collision_s = simulator.collisions().seconds;
   record.falls = simulator.walkerCount().falls;
@@ -342,6 +347,7 @@ RunRecord MissionRun::fly(const std::function<void(const Progress&)>& show) {
 }
 
 void MissionRun::stop(const std::string& why) { impl_->stopped_why = why; }
+ReachableVolume MissionRun::reachable() const { return volumeOf(impl_->reachable); }
 
 mission::Mission& MissionRun::mission() { return impl_->mission; }
 

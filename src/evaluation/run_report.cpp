@@ -132,7 +132,9 @@ std::string summaryText(const ReportHeader& header, const RunRecord& record) {
             {"mission_time_s", rounded(record.mission_time_s)},
             {"wall_time_s", rounded(record.wall_time_s)},
             {"explored_volume_m3", rounded(record.explored_volume_m3)},
-            {"reachable_volume_m3", rounded(header.reachable_volume_m3)},
+            {"explored_outside_m3", rounded(record.explored_outside_m3)},
+            {"reachable_volume_m3", rounded(record.reachable.total_m3)},
+            {"mesh_leaks", record.reachable.leak.has_value()},
             {"path_length_m", rounded(record.path_length_m)},
             {"collisions", record.collisions},
             {"collision_s", rounded(record.collision_s)},
@@ -147,6 +149,7 @@ std::string summaryText(const ReportHeader& header, const RunRecord& record) {
             {"plan_time_ms", jsonOf(spreadOf(planTimes(record)))},
             {"map_update_ms", jsonOf(spreadOf(record.map_update_ms))},
             {"peak_memory_mb", rounded(peakMemoryMb())}};
+  if (const auto& leak = record.reachable.leak) json["leak_m"] = jsonOf(leak->place);
   json["remaining_targets"] = remainingOf(record.remaining_targets);
   for (const GoToRecord& leg : record.legs) json["legs"].push_back(jsonOf(leg));
   return json.dump(2) + "\n";

@@ -31,7 +31,7 @@ class Lattice {
  public:
   Lattice(const sim::WorldMesh& mesh, const sim::MeshScene& scene, const Pose& start,
           const RobotModel& robot, const SurveyParams& params)
-      : step_m_(params.step_m, params.step_m, params.rise_m) {
+      : step_m_(stepFor(robot, params)) {
     const AxisAlignedBox bounds = mesh.bounds();
     const auto cellsTo = [&](const Eigen::Vector3d& corner) -> Eigen::Vector3i {
       return ((corner - start.position).array() / step_m_.array()).floor().cast<int>();
@@ -72,6 +72,11 @@ class Lattice {
  private:
   static constexpr float kUnseen = -2.0F;
   static constexpr float kNone = -1.0F;
+
+  /// Boxes at neighbouring positions overlap, so that no thin wall stands between them.
+  static Eigen::Vector3d stepFor(const RobotModel& robot, const SurveyParams& params) {
+    return Eigen::Vector3d(params.step_m, params.step_m, params.rise_m).cwiseMin(robot.box_m);
+  }
 
   template <class Visit>
   void forEachAround(const Eigen::Vector3i& cell, Visit&& visit) const {

@@ -7,10 +7,12 @@
 
 #include "spelunk/common/contract.h"
 #include "spelunk/common/file_lookup.h"
+#include "spelunk/common/log.h"
 #include "spelunk/mission/run_config.h"
 #include "spelunk/planners/factory.h"
 #include "spelunk/ros/frame_name.h"
 #include "spelunk/ros/params.h"
+#include "spelunk/sim/start_proposal.h"
 
 namespace spelunk::bridge {
 namespace {
@@ -54,10 +56,11 @@ mission::RunConfig loadConfig(const PrivateParams& given, const Params& params,
   return config;
 }
 
-Pose startOf(const SimNodeParams& params, const sim::WorldMesh& world) {
+Pose startOf(const SimNodeParams& params, const sim::WorldMesh& world,
+             const Eigen::Vector3d& robot_m) {
   if (params.start.empty()) {
     if (world.start) return *world.start;
-    throw OutsideError("world '" + params.world + "' has no start: give ~start as x, y, z, yaw");
+    throw OutsideError(sim::missingStartText(world, robot_m, "start:="));
   }
   std::vector<double> numbers;
   for (const std::string& text : params.start) {
@@ -111,13 +114,20 @@ SimSetup loadSimSetup(const ::ros::NodeHandle& private_node) {
   return setup;
 }
 
-SimWorld openWorld(const SimNodeParams& params) {
+SimWorld openWorld(const SimSetup& setup) {
+  const SimNodeParams& params = setup.node;
   const std::string name = looksLikePath(params.world)
                                ? existingFile("mesh", params.world, {params.launch_dir, ""})
                                : params.world;
   SimWorld world;
-  world.mesh = sim::openWorld(name, params.worlds_dir, params.cache_dir);
-  world.start = startOf(params, world.mesh);
+  world.mesh = sim::openWorld(
+      name, params.worlds_dir, params.cache_dir,
+      sim::meshFrameOf(params.world_scale, params.world_up, {"world_scale:=", "world_up:="}));
+  world.start = startOf(params, world.mesh, setup.robot.box_m);
+  if (world.mesh.exploration_bounds)
+    log(LogLevel::kInfo,
+        "the bounds beside the mesh limit exploration where planner_node is told "
+        "them: call its service ~set_bounds");
   return world;
 }
 

@@ -13,7 +13,7 @@ void simulate() {
   // Before the world is opened, which may take a while: others wait for the description.
   node.setParam("robot_description",
                 spelunk::bridge::robotDescription(setup.robot, setup.sim, setup.node.base_frame));
-  spelunk::bridge::SimNode simulator(node, setup, spelunk::bridge::openWorld(setup.node));
+  spelunk::bridge::SimNode simulator(node, setup, spelunk::bridge::openWorld(setup));
   simulator.run();
 }
 

@@ -140,14 +140,18 @@ std::string defaultCacheDir() {
 }
 
 WorldMesh openWorld(const std::string& name_or_path, const std::string& worlds_dir,
-                    const std::string& cache_dir) {
+                    const std::string& cache_dir, const MeshFrame& told) {
   std::error_code failure;
   const fs::path description = fs::path(worlds_dir) / (name_or_path + ".yaml");
-  if (looksLikePath(name_or_path)) return loadWorldMesh(existingFile("mesh", name_or_path, {""}));
+  if (looksLikePath(name_or_path))
+    return loadWorldMesh(existingFile("mesh", name_or_path, {""}), told);
   if (!fs::is_regular_file(description, failure))
     throw OutsideError("world '" + name_or_path +
                        "' is not known; give the path of a mesh or one of: " +
                        knownNames(worlds_dir) + " (from " + worlds_dir + ")");
+  if (!told.isSilent())
+    throw OutsideError("world '" + name_or_path +
+                       "' is generated in metres with z up: scale and up are for mesh files only");
   const fs::path cached = cachePath(description, cache_dir);
   std::optional<WorldMesh> mesh = readCache(cached);
   if (!mesh) {

@@ -3,6 +3,7 @@
 #include <sstream>
 
 #include "spelunk/common/contract.h"
+#include "spelunk/sim/mesh_size.h"
 
 namespace spelunk::sim {
 
@@ -16,7 +17,8 @@ void requireInside(const WorldMesh& mesh, const Pose& start) {
   if (!isFinite(start)) throw OutsideError("start pose is not finite; give numbers x,y,z,yaw");
   if (!mesh.bounds().contains(start.position))
     throw OutsideError("start " + textOf(start.position) + " lies outside the world '" + mesh.name +
-                       "'; give a start inside the mesh (--start x,y,z,yaw)");
+                       "', which is " + boundsText(mesh.bounds()) + sizeAdvice(mesh.bounds()) +
+                       "; give a start inside the mesh (--start x,y,z,yaw)");
 }
 
 void requireFreeBody(const MeshScene& scene, const WorldMesh& mesh, const Eigen::Vector3d& position,

@@ -7,53 +7,19 @@
 #include <algorithm>
 #include <array>
 #include <assimp/Importer.hpp>
-#include <cstring>
 #include <filesystem>
 #include <fstream>
-#include <nlohmann/json.hpp>
-#include <unordered_map>
 
+#include "mesh_builder.h"
+#include "sidecar.h"
 #include "spelunk/common/contract.h"
+#include "spelunk/common/log.h"
+#include "spelunk/sim/mesh_size.h"
 
 namespace spelunk::sim {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// Collects triangles and gives vertices of equal coordinates one index, in order of appearance.
-class Welder {
- public:
-  explicit Welder(WorldMesh& mesh) : mesh_(mesh) {}
-
-  void addTriangle(const std::array<Eigen::Vector3f, 3>& corners) {
-    const Eigen::Vector3i triangle(indexOf(corners[0]), indexOf(corners[1]), indexOf(corners[2]));
-    if (triangle[0] == triangle[1] || triangle[1] == triangle[2] || triangle[2] == triangle[0])
-      return;  // no area: nothing to hit
-    mesh_.triangles.push_back(triangle);
-  }
-
- private:
-  using Bits = std::array<std::uint32_t, 3>;
-  struct BitsHash {
-    std::size_t operator()(const Bits& bits) const {
-      std::uint64_t hash = 0xCBF29CE484222325ULL;
-      for (const std::uint32_t part : bits) hash = (hash ^ part) * 0x9E3779B97F4A7C15ULL;
-      return static_cast<std::size_t>(hash ^ (hash >> 32));
-    }
-  };
-
-  int indexOf(const Eigen::Vector3f& vertex) {
-    const Eigen::Vector3f unsigned_zero = vertex + Eigen::Vector3f::Zero();  // -0 becomes +0
-    Bits bits{};
-    std::memcpy(bits.data(), unsigned_zero.data(), sizeof(bits));
-    const auto [entry, is_new] = index_.try_emplace(bits, static_cast<int>(mesh_.vertices.size()));
-    if (is_new) mesh_.vertices.push_back(unsigned_zero);
-    return entry->second;
-  }
-
-  WorldMesh& mesh_;
-  std::unordered_map<Bits, int, BitsHash> index_;
-};
 
 aiVector3D corner(const aiMesh& part, const aiFace& face, unsigned k, const aiMatrix4x4& T) {
   return T * part.mVertices[face.mIndices[k]];
@@ -61,7 +27,7 @@ aiVector3D corner(const aiMesh& part, const aiFace& face, unsigned k, const aiMa
 
 /// Adds the triangles of a node and of everything below it.
 void addNode(const aiScene& scene, const aiNode& node, const aiMatrix4x4& T_world_parent,
-             Welder& welder) {
+             const Eigen::Matrix3d& T_world_file, MeshBuilder& builder) {
   const aiMatrix4x4 T_world_node = T_world_parent * node.mTransformation;
   for (unsigned m = 0; m < node.mNumMeshes; ++m) {
     const aiMesh& part = *scene.mMeshes[node.mMeshes[m]];
@@ -71,13 +37,13 @@ void addNode(const aiScene& scene, const aiNode& node, const aiMatrix4x4& T_worl
       std::array<Eigen::Vector3f, 3> corners;
       for (unsigned k = 0; k < 3; ++k) {
         const aiVector3D v = corner(part, face, k, T_world_node);
-        corners[k] = {v.x, v.y, v.z};
+        corners[k] = (T_world_file * Eigen::Vector3d(v.x, v.y, v.z)).cast<float>();
       }
-      welder.addTriangle(corners);
+      builder.addTriangle(corners);
     }
   }
   for (unsigned c = 0; c < node.mNumChildren; ++c)
-    addNode(scene, *node.mChildren[c], T_world_node, welder);
+    addNode(scene, *node.mChildren[c], T_world_node, T_world_file, builder);
 }
 
 /// Assimp turns Collada files to y up, whatever their up-axis, and scales them to metres. Other
@@ -90,31 +56,26 @@ aiMatrix4x4 fromImporterFrame(const fs::path& path) {
   return {1, 0, 0, 0, 0, 0, -1, 0, 0, 1, 0, 0, 0, 0, 0, 1};
 }
 
-std::optional<Pose> readStart(const fs::path& mesh_path) {
-  fs::path sidecar = mesh_path;
-  sidecar.replace_extension(".json");
-  std::ifstream stream(sidecar);
-  if (!stream) return std::nullopt;
-  const std::string remedy =
-      sidecar.string() + ": must hold \"start\": [x, y, z, yaw] in metres and radians";
-  const auto json = nlohmann::json::parse(stream, nullptr, false);
-  if (json.is_discarded() || !json.is_object())
-    throw OutsideError(remedy + " (it is not a JSON object)");
-  if (!json.contains("start")) return std::nullopt;
-  const auto& start = json["start"];
-  const auto is_number = [](const nlohmann::json& entry) { return entry.is_number(); };
-  if (!start.is_array() || start.size() != 4 || !std::all_of(start.begin(), start.end(), is_number))
-    throw OutsideError(remedy);
-  return Pose{{start[0].get<double>(), start[1].get<double>(), start[2].get<double>()},
-              start[3].get<double>()};
+void requireUsable(const MeshBuilder& builder, const WorldMesh& mesh, const std::string& path) {
+  if (builder.broken() > 0)
+    throw OutsideError(path + ": " + std::to_string(builder.broken()) +
+                       " triangles have a vertex that is not finite; repair or re-export the mesh");
+  if (mesh.triangles.empty())
+    throw OutsideError(path + ": holds no triangles" + (builder.flat() > 0 ? " with an area" : "") +
+                       "; export the world's surface as triangles");
 }
 
-void requireUsable(const WorldMesh& mesh, const std::string& path) {
-  if (mesh.triangles.empty())
-    throw OutsideError(path + ": holds no triangles; export the world's surface as triangles");
-  for (const Eigen::Vector3f& vertex : mesh.vertices)
-    if (!vertex.allFinite())
-      throw OutsideError(path + ": has a vertex that is not finite; repair or re-export the mesh");
+/// What was read and what was left out or looks odd.
+void describe(const MeshBuilder& builder, const WorldMesh& mesh, const std::string& path) {
+  const AxisAlignedBox bounds = mesh.bounds();
+  log(LogLevel::kInfo,
+      path + ": " + std::to_string(mesh.triangles.size()) + " triangles, " + boundsText(bounds));
+  if (builder.flat() > 0 || builder.repeated() > 0)
+    log(LogLevel::kWarn, path + ": left out " + std::to_string(builder.flat()) +
+                             " triangles without area and " + std::to_string(builder.repeated()) +
+                             " that are there twice");
+  if (const std::string advice = sizeAdvice(bounds); !advice.empty())
+    log(LogLevel::kWarn, path + ": " + sizeText(bounds) + advice);
 }
 
 }  // namespace
@@ -130,7 +91,7 @@ AxisAlignedBox WorldMesh::bounds() const {
   return {low.cast<double>(), high.cast<double>()};
 }
 
-WorldMesh loadWorldMesh(const std::string& path) {
+WorldMesh loadWorldMesh(const std::string& path, const MeshFrame& told) {
   std::error_code failure;
   if (!fs::is_regular_file(path, failure))
     throw OutsideError(path + ": no such mesh file; give a .dae, .stl, .obj or .ply file");
@@ -142,10 +103,14 @@ WorldMesh loadWorldMesh(const std::string& path) {
                        "); give a .dae, .stl, .obj or .ply file");
   WorldMesh mesh;
   mesh.name = fs::path(path).stem().string();
-  Welder welder(mesh);
-  addNode(*scene, *scene->mRootNode, fromImporterFrame(path), welder);
-  requireUsable(mesh, path);
-  mesh.start = readStart(path);
+  const Sidecar sidecar = readSidecar(path);
+  MeshBuilder builder(mesh);
+  addNode(*scene, *scene->mRootNode, fromImporterFrame(path),
+          told.elseOf(sidecar.frame).T_world_file(), builder);
+  requireUsable(builder, mesh, path);
+  describe(builder, mesh, path);
+  mesh.start = sidecar.start;
+  mesh.exploration_bounds = sidecar.bounds;
   return mesh;
 }
 

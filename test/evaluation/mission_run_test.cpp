@@ -84,8 +84,7 @@ TEST(MissionRun, SameSeedWritesTheSameTimelineByteForByte) {
   std::vector<std::string> texts;
   for (const char* name : {"a", "b"}) {
     requireWritable(folder.at(name));
-    writeReport(folder.at(name), {"gbplanner", "room", "aerial", 3, 60.0, 0.0},
-                flyRoom(roomSetup()));
+    writeReport(folder.at(name), {"gbplanner", "room", "aerial", 3, 60.0}, flyRoom(roomSetup()));
     texts.push_back(textOf(folder.at(name) + "/timeline.csv"));
   }
   EXPECT_GT(texts[0].size(), 200U);
@@ -97,7 +96,7 @@ TEST(RunReport, SummaryHasEveryPromisedKey) {
   RunRecord record;
   record.outcome = "explored \"all\"";
   record.map_update_ms = {1.0, 2.0, 3.0};
-  writeReport(folder.at(""), {"gbplanner", "w", "aerial", 1, 900.0, 123.0}, record);
+  writeReport(folder.at(""), {"gbplanner", "w", "aerial", 1, 900.0}, record);
   const auto json = nlohmann::json::parse(textOf(folder.at("summary.json")));
   for (const char* key :
        {"planner", "world", "robot", "seed", "outcome", "mission_time_s", "wall_time_s",
@@ -159,6 +158,20 @@ TEST(MissionRun, PointInTheRockEndsAtOnceWithTheReason) {
   EXPECT_NE(record.outcome.find("obstacle"), std::string::npos) << record.outcome;
   EXPECT_EQ(record.legs.size(), 1U);
   EXPECT_LT(record.mission_time_s, 2.0);
+}
+
+TEST(RunReport, SaysWhereTheMeshLeaks) {
+  const test::TemporaryFolder folder;
+  RunRecord record;
+  record.explored_outside_m3 = 12.5;
+  writeReport(folder.at(""), {}, record);
+  EXPECT_EQ(nlohmann::json::parse(textOf(folder.at("summary.json")))["mesh_leaks"], false);
+  record.reachable.leak = Leak{{1.5, -2.0, 3.25}, true};
+  writeReport(folder.at(""), {}, record);
+  const auto json = nlohmann::json::parse(textOf(folder.at("summary.json")));
+  EXPECT_EQ(json["mesh_leaks"], true);
+  EXPECT_EQ(json["leak_m"], nlohmann::json({1.5, -2.0, 3.25}));
+  EXPECT_EQ(json["explored_outside_m3"], 12.5);
 }
 
 TEST(RunReport, FolderThatCannotBeWrittenIsNamed) {

@@ -93,6 +93,17 @@ TEST(TourSurvey, StaysOnItsSideOfAGapTooNarrowForTheRobot) {
   for (const Eigen::Vector3d& outlook : survey.outlooks) EXPECT_LT(outlook.x(), 12.0);
 }
 
+TEST(TourSurvey, ATinyRobotDoesNotLeapThroughAThinWall) {
+  sim::WorldMesh mesh;
+  mesh.name = "walled";
+  test::addBox(mesh, {0.0F, -0.5F, 0.0F}, {3.0F, 0.5F, 1.0F});
+  test::addBox(mesh, {1.55F, -0.5F, 0.0F}, {1.551F, 0.5F, 1.0F});
+  RobotModel tiny = smallFlyer();
+  tiny.box_m = {0.05, 0.05, 0.05};
+  const TourSurvey survey = surveyForTour(mesh, sim::MeshScene(mesh), {{0.5, 0.0, 0.5}, 0.0}, tiny);
+  for (const Eigen::Vector3d& outlook : survey.outlooks) EXPECT_LT(outlook.x(), 1.55);
+}
+
 TEST(TourSurvey, IsWrittenAndAFullOrMissingFolderNamed) {
   const TourSurvey survey = surveyOfCorridor(smallFlyer());
   const test::TemporaryFolder folder;

@@ -15,7 +15,6 @@ struct ReportHeader {
   std::string robot;
   std::uint64_t seed = 1;
   double time_limit_s = 0.0;
-  double reachable_volume_m3 = 0.0;
 };
 
 /// Median, 95th percentile and maximum; zeros for no values.

@@ -56,6 +56,8 @@ struct SimNodeParams {
   int seed = 1;
   double speed_factor = 1.0;
   std::vector<std::string> start;
+  double world_scale = 0.0;
+  std::string world_up;
   std::string share_dir;
   std::string launch_dir;
   std::string worlds_dir;
@@ -74,6 +76,11 @@ struct SimNodeParams {
     field("speed_factor", speed_factor, Bounds{0.01, 1000.0}, "simulated seconds a real second",
           Audience::kUser);
     field("start", start, Bounds{}, "x, y, z, yaw; empty: the world's own", Audience::kUser);
+    field("world_scale", world_scale, Bounds{0.0, 1e6},
+          "metres a unit of the mesh; 0: as its <name>.json says, else 1", Audience::kUser);
+    field("world_up", world_up, Bounds{},
+          "axis of the mesh that points up: x, y, z; empty: as its <name>.json says, else z",
+          Audience::kUser);
     field("share_dir", share_dir, Bounds{}, "where config/ and worlds/ lie; empty: the package");
     field("launch_dir", launch_dir, Bounds{},
           "relative paths are seen from here, else from the node's working folder");

@@ -48,6 +48,6 @@ struct SimWorld {
 
 /// Opens the world that ~world names, and generates it first where that has not been done. Throws
 /// OutsideError if it cannot be opened, or if neither it nor ~start says where to start.
-[[nodiscard]] SimWorld openWorld(const SimNodeParams& params);
+[[nodiscard]] SimWorld openWorld(const SimSetup& setup);
 
 }  // namespace spelunk::bridge

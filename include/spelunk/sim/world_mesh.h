@@ -8,6 +8,7 @@
 
 #include "spelunk/common/box.h"
 #include "spelunk/common/pose.h"
+#include "spelunk/sim/mesh_frame.h"
 
 namespace spelunk::sim {
 
@@ -15,15 +16,19 @@ namespace spelunk::sim {
 struct WorldMesh {
   std::string name;
   std::vector<Eigen::Vector3f> vertices;
-  std::vector<Eigen::Vector3i> triangles;  ///< Indices of vertices.
-  std::optional<Pose> start;               ///< From <name>.json or the world description.
+  std::vector<Eigen::Vector3i> triangles;            ///< Indices of vertices.
+  std::optional<Pose> start;                         ///< From <name>.json or the world description.
+  std::optional<AxisAlignedBox> exploration_bounds;  ///< From <name>.json.
   [[nodiscard]] AxisAlignedBox bounds() const;
 };
 
-/// Reads a .dae/.stl/.obj/.ply file; a file's unit and up-axis are honoured. Where `<name>.json`
-/// lies beside it, its "start": [x, y, z, yaw] becomes the start. Throws OutsideError with path and
-/// remedy if the file is missing, unreadable, empty or holds no triangles.
-[[nodiscard]] WorldMesh loadWorldMesh(const std::string& path);
+/// Reads a .dae/.stl/.obj/.ply file; a Collada file's unit and up-axis are honoured, then what is
+/// `told`, else what `<name>.json` beside it says ("scale", "up"). Its "start" and "bounds" are in
+/// the world frame. Triangles without area and those that are there twice are left out. Says in the
+/// log what was read, and what looks like another unit or up-axis. Throws OutsideError with path
+/// and remedy if a file is missing or unreadable, holds no triangles or numbers that are not
+/// finite.
+[[nodiscard]] WorldMesh loadWorldMesh(const std::string& path, const MeshFrame& told = {});
 
 /// Writes binary STL. Throws OutsideError.
 void saveStl(const WorldMesh& mesh, const std::string& path);
@@ -33,9 +38,9 @@ void saveStl(const WorldMesh& mesh, const std::string& path);
 [[nodiscard]] std::string defaultCacheDir();
 
 /// A name from `worlds_dir` (worlds/<name>.yaml, generated on first use and cached in `cache_dir`,
-/// an unwritable cache being no fault) or the path of a mesh file. Throws OutsideError that
-/// lists the known names.
+/// an unwritable cache being no fault) or the path of a mesh file, for which `told` is meant.
+/// Throws OutsideError that lists the known names.
 [[nodiscard]] WorldMesh openWorld(const std::string& name_or_path, const std::string& worlds_dir,
-                                  const std::string& cache_dir);
+                                  const std::string& cache_dir, const MeshFrame& told = {});
 
 }  // namespace spelunk::sim
