@@ -9,9 +9,9 @@
 
 namespace spelunk::evaluation {
 
-/// A triangle so near to the border of two voxels lies between them and runs through neither.
-/// Simulated rays are single precision: within a kilometre they end no farther from a wall.
-constexpr double kFlush_m = 1e-4;
+/// A triangle so near to the border of two voxels lies between them and runs through neither. Far
+/// above the rounding of the tests (1e-11 m in a world of kilometres), far below a voxel.
+constexpr double kFlush_m = 1e-6;
 
 /// How the triangles of a mesh part the voxels of a grid over its bounds. A step between the
 /// centres of neighbours that `joins` calls clear crosses no triangle, whatever the rounding: the

@@ -261,7 +261,7 @@ int main(int argc, char** argv) {
     if (list_params) return listParams(options), EXIT_SUCCESS;
     return fly(options, quiet);
   } catch (const OutsideError& error) {
-    std::cerr << "mission: " << error.what() << '\n';
+    std::cerr << "\nmission: " << error.what() << '\n';
     return kExitBadInput;
   } catch (const std::exception& error) {
     std::cerr << "mission: internal fault: " << error.what() << '\n';

@@ -30,7 +30,7 @@ std::size_t freeVoxelsByBruteForce(const sim::WorldMesh& mesh, const Eigen::Vect
   const sim::MeshScene scene(mesh);
   VoxelGrid reached(mesh.bounds(), kEdge_m);
   const auto isFree = [&](const Eigen::Vector3i& cell) {
-    const Eigen::Vector3d size = Eigen::Vector3d::Constant(kEdge_m - 2e-4);
+    const Eigen::Vector3d size = Eigen::Vector3d::Constant(kEdge_m - 2e-6);
     return scene.boxDistance(reached.centreOf(cell), size, 0.01) > 0.0;
   };
   std::deque<Eigen::Vector3i> open{reached.cellOf(start)};
