@@ -68,7 +68,7 @@ void expectLookedAtAndLeft(const RunRecord& record, const Pose& start, double en
   // Once to see the gallery, once to look at the portal, once for corners that were passed by.
   EXPECT_LT(record.path_length_m, 3.0 * thereAndBack(start));
   EXPECT_LT(record.mission_time_s, 0.5 * endurance_s);
-  EXPECT_EQ(record.collisions, 0);
+  EXPECT_GT(record.min_clearance_m, 0.0);
   EXPECT_GT(record.explored_volume_m3, 0.9 * 40.0 * 5.0 * 3.5);
 }
 
@@ -107,7 +107,7 @@ TEST(PortalMission, ABranchIsExploredThoughThePortalLiesOnTheWay) {
 
 TEST(PortalMission, ARobotThatSeesTheOpenStaysWithinTheMesh) {
   const Flight flight = fly(test::galleryWithPortal(), "inspector", "informed",
-                            {{36.0, 2.5, 1.5}, 0.0}, 200.0, {"map.range_max_m=4"});
+                            {{36.0, 2.5, 1.5}, 0.0}, 400.0, {"map.range_max_m=4"});
   EXPECT_TRUE(flight.record.returned_home) << flight.record.outcome;
   double farthest_x = 0.0;
   for (const TimelineRow& row : flight.record.timeline)
