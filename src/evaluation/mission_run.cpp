@@ -209,19 +209,10 @@ void MissionRun::Impl::nextLeg() {
   GoToRecord begun;
   begun.leg = leg;
   begun.path_length_m = -record.path_length_m;
-  mission::Answer given = mission.mayGoTo(leg.target);
-  navigation::NavigationAnswer answer;
-  if (given.accepted) {
-    auto query = mission.goToQuery(leg.target);
-    query->rng = Rng(setup.seed).fork("go_to/" + std::to_string(record.legs.size()));
-    answer = navigation::Navigator(leg.navigation).plan(*query);
-    given = mission.goTo(leg.navigation, *query, answer);
-    begun.status = mission.status().go_to;
-  }
+  const mission::Answer given = mission.goTo(leg.target, leg.navigation);
   if (!given.accepted) {
     begun.status.outcome = mission::GoToOutcome::kUnreachable;
     begun.status.reason = given.reason;
-    begun.status.nearest_reachable = answer.nearest_reachable;
   }
   record.legs.push_back(begun);
   is_underway = given.accepted;

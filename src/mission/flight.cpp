@@ -15,7 +15,7 @@ using planners::PathKind;
 constexpr double kRestSpeed_mps = 0.2;
 /// After it every robot has come to rest, whatever its estimator says.
 constexpr double kSettleMax_s = 4.0;
-constexpr double kArrived_m = 0.4;
+constexpr double kArrived_m = 0.4;       // half a body: the next path begins there without a step
 constexpr double kArrivalGrace_s = 3.0;  // a robot that is late may still come
 /// Less is the drift of an estimator, or of a controller that holds.
 constexpr double kMoved_m = 0.15;
@@ -26,11 +26,12 @@ constexpr double kStopMargin_m = 0.6;
 constexpr double kLagMax_m = 2.0;        // how far back on its line a late robot is looked for
 constexpr double kLagRetimed_m = 0.4;    // half a body length; less is the controller's work
 constexpr double kRetimePeriod_s = 2.0;  // a late robot shall not be timed anew at every tick
+/// How far rounded corners may leave the line; the first that stays free is the fastest.
 constexpr double kCornerTolerances_m[] = {0.6, 0.3};
-constexpr double kLeastTolerance_m = 0.1;
+constexpr double kLeastTolerance_m = 0.1;   // within a voxel of the line, which was checked
 constexpr double kTightTolerance_m = 0.02;  // without its margin the box has no room for more
-constexpr double kLineTolerance_m = 0.02;
-constexpr double kBackSpeedShare = 0.4;  // of the fastest walk
+constexpr double kLineTolerance_m = 0.02;   // points of a timed line that are one straight piece
+constexpr double kBackSpeedShare = 0.4;     // of the fastest walk
 
 Path pathOf(const std::vector<Eigen::Vector3d>& points) {
   Path path;

@@ -89,13 +89,9 @@ Answer Mission::mayGoTo(const Eigen::Vector3d& point) {
   const std::string problem = impl_->goToProblem(point);
   return {problem.empty(), problem};
 }
-std::optional<navigation::NavigationQuery> Mission::goToQuery(const Eigen::Vector3d& point) {
-  return impl_->goToQuery(point);
-}
-Answer Mission::goTo(const navigation::NavigationParams& params,
-                     const navigation::NavigationQuery& query,
-                     const navigation::NavigationAnswer& answer) {
-  return impl_->goTo({params, query}, answer);
+Answer Mission::goTo(const Eigen::Vector3d& point, const navigation::NavigationParams& params,
+                     double time_limit_s) {
+  return impl_->goTo(point, params, time_limit_s);
 }
 std::optional<planners::PlanRequest> Mission::requestHere(double now_s) {
   if (!impl_->watch.knowsPose()) return std::nullopt;
@@ -106,8 +102,10 @@ std::optional<Command> Mission::tick(double now_s) { return impl_->tick(now_s); 
 
 std::optional<PlanJob> Mission::takeJob() { return impl_->desk.takeJob(); }
 std::optional<Command> Mission::accept(const PlanOutcome& outcome, double now_s) {
-  return impl_->accept(outcome, now_s);
+  impl_->take(outcome, now_s);
+  return impl_->flight.takeCommand();
 }
+void Mission::take(const PlanOutcome& outcome, double now_s) { impl_->take(outcome, now_s); }
 
 MissionStatus Mission::status() const { return impl_->status(); }
 

@@ -15,10 +15,10 @@ constexpr double kAskAfterEnd_s = 0.1;  // a tick: then the robot is at the end 
 
 }  // namespace
 
-std::optional<Command> Mission::Impl::accept(const PlanOutcome& outcome, double now_s) {
+void Mission::Impl::take(const PlanOutcome& outcome, double now_s) {
   now = std::max(now, now_s);
   const auto job = desk.finish(outcome, now);
-  if (!job) return std::nullopt;
+  if (!job) return;
   switch (job->kind) {
     case Kind::kExplore:
       acceptExploration(*job, outcome);
@@ -35,7 +35,13 @@ std::optional<Command> Mission::Impl::accept(const PlanOutcome& outcome, double 
       acceptStep(point.take(outcome.go_to, way_home, now));
       break;
   }
-  return flight.takeCommand();
+}
+
+void Mission::Impl::askForPoint() {
+  desk.askForPoint(way_home, now,
+                   [&](const std::shared_ptr<const map::FrozenMap>& map, const Rng& rng) {
+                     return point.job(map, rng);
+                   });
 }
 
 void Mission::Impl::acceptExploration(const RunningJob& job, const PlanOutcome& outcome) {
@@ -135,10 +141,7 @@ void Mission::Impl::acceptStep(const PointStep& step) {
       ++replans_obstacle;
       return happens(Event::kObstacleAhead, step.why);
     case PointStep::Kind::kAsk:
-      return desk.askForPoint(
-          way_home, now, [&](const std::shared_ptr<const map::FrozenMap>& map, const Rng& rng) {
-            return point.job(map, rng);
-          });
+      return askForPoint();
     case PointStep::Kind::kReached:
       return happens(Event::kPointReached, step.why);
     case PointStep::Kind::kUnreachable:

@@ -38,9 +38,9 @@ struct Mission::Impl {
   Answer setBounds(const AxisAlignedBox& box);
   [[nodiscard]] std::string startProblem();
   [[nodiscard]] std::string withDoubt(const std::string& why) const;
-  [[nodiscard]] std::optional<navigation::NavigationQuery> goToQuery(const Eigen::Vector3d& point);
   [[nodiscard]] std::string goToProblem(const Eigen::Vector3d& point);
-  Answer goTo(const PointJob& job, const navigation::NavigationAnswer& answer);
+  Answer goTo(const Eigen::Vector3d& target, const navigation::NavigationParams& navigation,
+              double time_limit_s);
   void markStandFree();
   void takeOff();
   [[nodiscard]] MissionRecord record(const planners::PlannerGraph& graph) const;
@@ -75,7 +75,8 @@ struct Mission::Impl {
   void askForPlan();
 
   // --- What becomes of plans.
-  std::optional<Command> accept(const PlanOutcome& outcome, double now_s);
+  void take(const PlanOutcome& outcome, double now_s);
+  void askForPoint();
   void acceptExploration(const RunningJob& job, const PlanOutcome& outcome);
   void acceptSecondLook(const RunningJob& job, const PlanOutcome& outcome);
   void acceptWayHome(const RunningJob& job, const planners::PlanResult& home);
