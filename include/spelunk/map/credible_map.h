@@ -20,7 +20,8 @@ struct Credibility {
 ///    two occupied voxels, else free.
 /// 2. Occupied voxels grow by `growth_m` in x and y and by one voxel in z, which shuts the holes
 ///    between the returns and leaves open what a robot could enter.
-/// 3. Silent voxels (FrozenMap::isSilent), grown as much, become occupied where they are unknown:
+/// 3. Silent voxels (FrozenMap::isSilent), gaps of a column between two of them closed as those of
+///    step 1 and grown as rock is, become occupied where they are unknown:
 ///    rays end there and they make no frontier. Gaps of step 1 leave them out.
 /// Differs from the paper, which counts every unknown voxel on a ray (Dang 2020, section 4.1).
 /// The result is for gains only and says nothing about collisions.
