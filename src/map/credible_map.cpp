@@ -149,11 +149,12 @@ class ChunkFilter {
   }
 
   /// Step 1: a closing by gap + 1 in z finds the gaps; free space spreads up and down through them;
-  /// what it does not reach is solid. It does not spread through silent voxels.
+  /// what it does not reach is solid. Silent voxels bound gaps and are none.
   SPELUNK_WIDE_IF_POSSIBLE void closeColumns() {
     if (gap_ <= 0) return;
     for (int z = 0; z < gaps_.layers(); ++z)
-      for (int y = 0; y < kRows; ++y) gaps_.at(y, z) = free_.at(y, z) | occupied_.at(y, z);
+      for (int y = 0; y < kRows; ++y)
+        gaps_.at(y, z) = free_.at(y, z) | occupied_.at(y, z) | silent_.at(y, z);
     spreadUp(gaps_, gap_ + 1);
     shrinkDown(gaps_, gap_ + 1);
     for (int z = 0; z < gaps_.layers(); ++z)

@@ -74,25 +74,16 @@ class GrowingMap {
   std::shared_ptr<const FrozenMap> frozen_;
 };
 
-/// Fills first..last of a column, between known voxels: free from its free ends on, up to the first
-/// silent voxel; silent ones stay unknown; the rest is solid.
-void closeGap(Grid& grid, Grid& silent, int x, int y, int first, int last) {
-  int up = first;
-  int down = last;
-  if (grid.at(x, y, first - 1) == 1)
-    for (; up <= last && silent.at(x, y, up) == 0; ++up) grid.at(x, y, up) = 1;
-  if (grid.at(x, y, last + 1) == 1)
-    for (; down >= up && silent.at(x, y, down) == 0; --down) grid.at(x, y, down) = 1;
-  for (int z = up; z <= down; ++z)
-    if (silent.at(x, y, z) == 0) grid.at(x, y, z) = 2;
-}
-
+/// Gaps between two voxels that are known or silent: free beside a free one, else solid.
 void closeColumn(Grid& grid, Grid& silent, int x, int y, int gap_max) {
   int below = -1;
   for (int z = 0; z < kNz; ++z) {
-    if (grid.at(x, y, z) == 0) continue;
+    if (grid.at(x, y, z) == 0 && silent.at(x, y, z) == 0) continue;
     const int gap = z - below - 1;
-    if (below >= 0 && gap > 0 && gap <= gap_max) closeGap(grid, silent, x, y, below + 1, z - 1);
+    if (below >= 0 && gap > 0 && gap <= gap_max) {
+      const bool is_free = grid.at(x, y, z) == 1 || grid.at(x, y, below) == 1;
+      for (int k = below + 1; k < z; ++k) grid.at(x, y, k) = is_free ? 1 : 2;
+    }
     below = z;
   }
 }
