@@ -98,6 +98,7 @@ class ChunkFilter {
     StatusChunk chunk;
     chunk.key = key;
     if (free_.isEmpty() && occupied_.isEmpty() && !has_silence_) return chunk;
+    closeSilence();
     closeColumns();
     growOccupied();
     endAtSilence();
@@ -136,12 +137,24 @@ class ChunkFilter {
     }
   }
 
+  /// Between the rows that look into an opening in vain there are gaps as well.
+  SPELUNK_WIDE_IF_POSSIBLE void closeSilence() {
+    if (!has_silence_ || gap_ <= 0) return;
+    gaps_ = silent_;
+    spreadUp(gaps_, gap_ + 1);
+    shrinkDown(gaps_, gap_ + 1);
+    for (int z = 0; z < gaps_.layers(); ++z)
+      for (int y = 0; y < kRows; ++y)
+        silent_.at(y, z) |= gaps_.at(y, z) & ~(free_.at(y, z) | occupied_.at(y, z));
+  }
+
   /// Step 1: a closing by gap + 1 in z finds the gaps; free space spreads up and down through them;
-  /// what it does not reach is solid. It does not spread through silent voxels.
+  /// what it does not reach is solid. Silent voxels bound gaps and are none.
   SPELUNK_WIDE_IF_POSSIBLE void closeColumns() {
     if (gap_ <= 0) return;
     for (int z = 0; z < gaps_.layers(); ++z)
-      for (int y = 0; y < kRows; ++y) gaps_.at(y, z) = free_.at(y, z) | occupied_.at(y, z);
+      for (int y = 0; y < kRows; ++y)
+        gaps_.at(y, z) = free_.at(y, z) | occupied_.at(y, z) | silent_.at(y, z);
     spreadUp(gaps_, gap_ + 1);
     shrinkDown(gaps_, gap_ + 1);
     for (int z = 0; z < gaps_.layers(); ++z)

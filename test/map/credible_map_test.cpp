@@ -74,25 +74,16 @@ class GrowingMap {
   std::shared_ptr<const FrozenMap> frozen_;
 };
 
-/// Fills first..last of a column, between known voxels: free from its free ends on, up to the first
-/// silent voxel; silent ones stay unknown; the rest is solid.
-void closeGap(Grid& grid, Grid& silent, int x, int y, int first, int last) {
-  int up = first;
-  int down = last;
-  if (grid.at(x, y, first - 1) == 1)
-    for (; up <= last && silent.at(x, y, up) == 0; ++up) grid.at(x, y, up) = 1;
-  if (grid.at(x, y, last + 1) == 1)
-    for (; down >= up && silent.at(x, y, down) == 0; --down) grid.at(x, y, down) = 1;
-  for (int z = up; z <= down; ++z)
-    if (silent.at(x, y, z) == 0) grid.at(x, y, z) = 2;
-}
-
+/// Gaps between two voxels that are known or silent: free beside a free one, else solid.
 void closeColumn(Grid& grid, Grid& silent, int x, int y, int gap_max) {
   int below = -1;
   for (int z = 0; z < kNz; ++z) {
-    if (grid.at(x, y, z) == 0) continue;
+    if (grid.at(x, y, z) == 0 && silent.at(x, y, z) == 0) continue;
     const int gap = z - below - 1;
-    if (below >= 0 && gap > 0 && gap <= gap_max) closeGap(grid, silent, x, y, below + 1, z - 1);
+    if (below >= 0 && gap > 0 && gap <= gap_max) {
+      const bool is_free = grid.at(x, y, z) == 1 || grid.at(x, y, below) == 1;
+      for (int k = below + 1; k < z; ++k) grid.at(x, y, k) = is_free ? 1 : 2;
+    }
     below = z;
   }
 }
@@ -115,11 +106,25 @@ Grid byBruteForce(Grid grid, int gap, int reach, Grid silent = {}) {
   return grown;
 }
 
-/// What silence adds: unknown voxels near silent ones are solid.
-Grid endedAtSilence(Grid known, Grid silent, Grid expected, int reach) {
+/// Unknown voxels that are silent, or lie between two such in a column.
+Grid closedSilence(Grid known, Grid silent, int gap_max) {
   forEachCell([&](int x, int y, int z) {
     if (known.at(x, y, z) != 0) silent.at(x, y, z) = 0;
   });
+  Grid closed = silent;
+  for (int y = 0; y < kNy; ++y)
+    for (int x = 0; x < kNx; ++x)
+      for (int z = 0, below = -1; z < kNz; ++z) {
+        if (silent.at(x, y, z) == 0) continue;
+        for (int k = below + 1; below >= 0 && z - below - 1 <= gap_max && k < z; ++k)
+          if (known.at(x, y, k) == 0) closed.at(x, y, k) = 1;
+        below = z;
+      }
+  return closed;
+}
+
+/// What silence adds: unknown voxels near silent ones are solid.
+Grid endedAtSilence(Grid silent, Grid expected, int reach) {
   forEachCell([&](int x, int y, int z) { silent.at(x, y, z) *= 2; });
   forEachCell([&](int x, int y, int z) {
     if (expected.at(x, y, z) == 0 && isNearOccupied(silent, x, y, z, reach))
@@ -182,8 +187,9 @@ TEST(CredibleMap, SilentVoxelsEndRaysUntilTheyAreKnown) {
           static_cast<std::uint8_t>(1 + rng.below(4) / 3);
     static_cast<void>(credible.of(map.set(grid)));
     for (int i = 0; i < 200; ++i) silent.at(rng.below(kNx), rng.below(kNy), rng.below(kNz)) = 1;
+    const Grid closed = closedSilence(grid, silent, 7);
     expectEqual(*credible.of(map.lookInVain(silent)),
-                endedAtSilence(grid, silent, byBruteForce(grid, 7, 2, silent), 2));
+                endedAtSilence(closed, byBruteForce(grid, 7, 2, closed), 2));
   }
 }
 
