@@ -9,6 +9,7 @@ function(spelunk_module name)
   install(TARGETS spelunk_${name}
     ARCHIVE DESTINATION ${CATKIN_PACKAGE_LIB_DESTINATION}
     LIBRARY DESTINATION ${CATKIN_PACKAGE_LIB_DESTINATION})
+  set_target_properties(spelunk_${name} PROPERTIES INSTALL_RPATH "$ORIGIN")
 endfunction()
 
 # spelunk_executable(name SOURCES ... LINK ...): a program that rosrun and roslaunch find.
@@ -18,7 +19,21 @@ function(spelunk_executable name)
   target_link_libraries(${name} PRIVATE ${arg_LINK})
   set_target_properties(${name} PROPERTIES
     RUNTIME_OUTPUT_DIRECTORY ${CATKIN_DEVEL_PREFIX}/${CATKIN_PACKAGE_BIN_DESTINATION})
+  set_target_properties(${name} PROPERTIES INSTALL_RPATH "$ORIGIN/..")  # the libraries, installed
   install(TARGETS ${name} RUNTIME DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION})
+  spelunk_show_to_rosrun(${name})
+endfunction()
+
+# rosrun looks through the package but leaves out all below its folder build/. Where the devel space
+# lies there, a link in bin/ shows the program to it. A script of the same name is what users type.
+function(spelunk_show_to_rosrun name)
+  file(RELATIVE_PATH devel ${PROJECT_SOURCE_DIR} ${CATKIN_DEVEL_PREFIX})
+  if(NOT devel MATCHES "^build/" OR EXISTS ${PROJECT_SOURCE_DIR}/scripts/${name})
+    return()
+  endif()
+  file(MAKE_DIRECTORY ${PROJECT_SOURCE_DIR}/bin)
+  file(CREATE_LINK ../${devel}/${CATKIN_PACKAGE_BIN_DESTINATION}/${name}
+    ${PROJECT_SOURCE_DIR}/bin/${name} SYMBOLIC)
 endfunction()
 
 # spelunk_test(name SOURCES ... LINK ...): one GoogleTest program that ctest runs.

@@ -8,9 +8,11 @@ Reads summary.json, timeline.csv and .plan_view of DIR, which the mission execut
 """
 import csv
 import json
+import logging
 import pathlib
 import sys
 
+logging.getLogger("matplotlib").setLevel(logging.ERROR)  # It works without a folder for its cache.
 import matplotlib
 
 matplotlib.use("Agg")
@@ -51,12 +53,24 @@ def read_plan_view(path):
 def read_timeline(path):
     """Columns of timeline.csv as arrays; the state as a list of names."""
     with open(path, newline="") as file:
-        rows = list(csv.DictReader(file))
-    if not rows:
-        raise MissionError(f"{path}: no rows, the mission was shorter than a second")
+        reader = csv.DictReader(file)
+        rows = list(reader)
+        names = reader.fieldnames or []
+    if not {"t_s", "explored_m3", "x_m", "y_m", "state"} <= set(names):
+        raise MissionError(f"{path}: is no timeline, its header lacks columns")
     columns = {name: np.array([float(row[name]) for row in rows])
-               for name in rows[0] if name != "state"}
+               for name in names if name != "state"}
     return columns, [row["state"] for row in rows]
+
+
+def with_a_row(times, states, summary):
+    """The same; of a mission shorter than a second one row that knows no place."""
+    if states:
+        return times, states
+    alone = {name: np.array([np.nan]) for name in times}
+    alone.update(t_s=np.zeros(1), distance_m=np.zeros(1), remaining_s=np.zeros(1),
+                 explored_m3=np.array([float(summary.get("explored_volume_m3", 0.0))]))
+    return alone, ["Idle"]
 
 
 def thickened(mask):
@@ -92,7 +106,8 @@ def known_window(layers, path_x, path_y, frame):
     x0, y0, resolution, _ = frame
     rows, columns = np.nonzero(layers[0] + layers[1].astype(int))
     if rows.size == 0:
-        return path_x.min() - 5, path_x.max() + 5, path_y.min() - 5, path_y.max() + 5
+        path = np.nan_to_num([path_x.min(), path_x.max(), path_y.min(), path_y.max()])
+        return tuple(path + (-5, 5, -5, 5))
     margin = 3.0
     return (x0 + columns.min() * resolution - margin, x0 + (columns.max() + 1) * resolution + margin,
             y0 + rows.min() * resolution - margin, y0 + (rows.max() + 1) * resolution + margin)
@@ -179,9 +194,9 @@ def draw_volume(axes, times, states, summary):
         axes.axhline(reachable, color=INK, lw=1.2, ls=(0, (5, 3)))
         share = 100.0 * volume[-1] / reachable
         label = f"reachable {reachable:,.0f} m³, {share:.0f} % seen"
-        axes.annotate(label, (seconds[-1], min(reachable, 0.93 * top)), (-4, 4), fontsize=9.5,
+        axes.annotate(label, (max(seconds[-1], 1.0), min(reachable, 0.93 * top)), (-4, 4), fontsize=9.5,
                       textcoords="offset points", ha="right", va="bottom")
-    axes.set_ylim(0, top)
+    axes.set_ylim(0, max(top, 1.0))
     axes.set_ylabel("explored volume [m³]")
     handles = [Patch(fc=STATE_COLOURS.get(state, FAINT), label=state) for state in seen]
     axes.legend(handles=handles, loc="lower center", bbox_to_anchor=(0.5, 1.0), ncol=len(handles),
@@ -207,8 +222,8 @@ def draw_endurance(axes, times, states):
 
 def headline(summary):
     """Title and the line of figures under it."""
-    title = f"{pathlib.Path(str(summary.get('world', '?'))).stem} · {summary.get('planner', '?')} · " \
-            f"{summary.get('robot', '?')} · seed {summary.get('seed', '?')}"
+    names = [pathlib.Path(str(summary.get(key, "?"))).stem for key in ("world", "planner", "robot")]
+    title = " · ".join([*names, f"seed {summary.get('seed', '?')}"])
     home = "home with {:,.0f} s left".format(summary.get("remaining_at_home_s", 0.0)) \
         if summary.get("returned_home") else "not home"
     figures = [f"explored {summary.get('explored_volume_m3', 0):,.0f} m³",
@@ -230,7 +245,7 @@ def style():
 def draw(folder):
     """Draws `folder` and writes its exploration.png."""
     summary = json.loads((folder / "summary.json").read_text())
-    times, states = read_timeline(folder / "timeline.csv")
+    times, states = with_a_row(*read_timeline(folder / "timeline.csv"), summary)
     layers, frame = read_plan_view(folder / ".plan_view")
     style()
     left, right, bottom, top = known_window(layers, times["x_m"], times["y_m"], frame)
@@ -250,7 +265,7 @@ def draw(folder):
     bar.outline.set_visible(False)
     draw_volume(volume, times, states, summary)
     draw_endurance(endurance, times, states)
-    volume.set_xlim(0, times["t_s"][-1])
+    volume.set_xlim(0, max(times["t_s"][-1], 1.0))
     for axes in (volume, endurance):
         axes.grid(True, color=FAINT, alpha=0.25, lw=0.7)
         axes.yaxis.set_major_formatter(matplotlib.ticker.StrMethodFormatter("{x:,.0f}"))

@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 """Runs robot_state_publisher as soon as `robot_description` is there. Where it is not installed,
 says what that costs and ends: nothing else depends on it."""
 

@@ -49,7 +49,7 @@ def parsed(arguments):
     build = pathlib.Path(os.environ.get("SPELUNK_BUILD_DIR", scripts.parent / "build"))
     parser = argparse.ArgumentParser(prog="best_possible", description=__doc__.split("\n\n")[0])
     parser.add_argument("--world", required=True, help="name from worlds/ or path of a mesh")
-    parser.add_argument("--robot", default="aerial", help="name from config/robots")
+    parser.add_argument("--robot", default="aerial", help="name from config/robots or path of a file")
     parser.add_argument("--time-limit-s", type=float, default=900.0)
     parser.add_argument("--out", type=pathlib.Path, required=True, help="a new or empty folder")
     parser.add_argument("--set", action="append", default=[], metavar="KEY=VALUE")

@@ -33,8 +33,13 @@ def world_problems(campaign, share):
 
 def robot_problems(campaign, share):
     known = names_in(share / "config" / "robots")
-    return [f"robot \"{robot}\" is not known; choose one of: {', '.join(known)}"
-            for robot in sorted({mission.robot for mission in campaign.missions} - set(known))]
+    named = {mission.robot for mission in campaign.missions if not mission.robot_file}
+    files = {(kind, path) for mission in campaign.missions for kind, path in
+             (("robot", mission.robot_file), ("planner", mission.planner_file)) if path}
+    return [f"robot \"{robot}\" is not known; give the path of a file or one of: "
+            f"{', '.join(known)}" for robot in sorted(named - set(known))] + \
+           [f"{kind} file {path} is not there" for kind, path in sorted(files)
+            if not pathlib.Path(path).is_file()]
 
 
 def executable_problems(campaign, executable, environment, robots, folder):
@@ -43,8 +48,9 @@ def executable_problems(campaign, executable, environment, robots, folder):
     It is asked in `folder`, where it will fly, if that is there.
     """
     problems = []
-    sets = {(mission.robot, mission.planner, mission.parameter_set, mission.settings)
-            for mission in campaign.missions if mission.robot in robots}
+    sets = {(mission.robot_file or mission.robot, mission.planner_file or mission.planner,
+             mission.parameter_set, mission.settings)
+            for mission in campaign.missions if mission.robot_file or mission.robot in robots}
     for robot, planner, name, settings in sorted(sets):
         command = [str(executable.resolve()), "--robot", robot, "--planner", planner, "--list-params"]
         for key, value in settings:

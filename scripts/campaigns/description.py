@@ -6,25 +6,26 @@
       guided: {oracle.tour: "tours/{world}__{robot}__{time_limit_s}.csv"}  # seen from --out
     groups:                          # every combination within a group is one mission
       - worlds: [room]
-        robots: [aerial]
-        planners: [gbplanner, informed]
+        robots: [aerial]                  # names or paths of files, seen from this file's folder
+        planners: [gbplanner, informed]   # the same
         parameter_sets: [default, fine]   # optional, default
         seeds: 1-15                       # or a list
         time_limits_s: [900]
         wall_limit_s: 1860                # optional, 60 s and twice the time limit
         best_possible: true               # optional: also find out what can be explored at best
-    meshes: {edgar: /path/to/mine.stl}    # optional: worlds that are files
+    meshes: {edgar: /path/to/mine.stl}    # optional: worlds that are files, seen from here, too
     references: [...]                     # optional: figures of a paper, for the report
 """
 import dataclasses
 import itertools
+import pathlib
 import re
 
 import yaml
 
 TOP_KEYS = {"title", "parameter_sets", "groups", "meshes", "references"}
-GROUP_LISTS = ("worlds", "robots", "planners", "parameter_sets")
-GROUP_KEYS = {*GROUP_LISTS, "seeds", "time_limits_s", "wall_limit_s", "best_possible"}
+GROUP_KEYS = {"worlds", "robots", "planners", "parameter_sets", "seeds", "time_limits_s", "wall_limit_s",
+              "best_possible"}
 WHAT_IS_POSSIBLE = ("robot.", "sensor.")  # settings of these; others change how it is explored
 REFERENCE_KEYS = {"world", "robot", "time_limit_s", "label", "vertices", "edges", "navigation_s",
                   "exploration_s", "volume_m3"}
@@ -56,6 +57,8 @@ class Mission:
     seed: int
     settings: tuple
     wall_limit_s: float
+    robot_file: str = ""  # where the robot, the planner is a file and not one of the package's
+    planner_file: str = ""
 
     @property
     def name(self):
@@ -65,8 +68,9 @@ class Mission:
 
     def arguments(self, meshes):
         """What the mission executable is told, all but the output folder."""
-        pairs = [("--world", str(meshes.get(self.world, self.world))), ("--robot", self.robot),
-                 ("--planner", self.planner), ("--seed", str(self.seed)),
+        pairs = [("--world", str(meshes.get(self.world, self.world))),
+                 ("--robot", self.robot_file or self.robot),
+                 ("--planner", self.planner_file or self.planner), ("--seed", str(self.seed)),
                  ("--time-limit-s", number_text(self.time_limit_s))]
         pairs += [("--set", f"{key}={value}") for key, value in self.settings]
         return [text for pair in pairs for text in pair]
@@ -80,6 +84,7 @@ class BestPossible:
     robot: str
     time_limit_s: float
     settings: tuple
+    robot_file: str = ""
 
     @property
     def name(self):
@@ -87,7 +92,8 @@ class BestPossible:
 
     def arguments(self, meshes):
         """What scripts/best_possible is told, all but the output folder."""
-        pairs = [("--world", str(meshes.get(self.world, self.world))), ("--robot", self.robot),
+        pairs = [("--world", str(meshes.get(self.world, self.world))),
+                 ("--robot", self.robot_file or self.robot),
                  ("--time-limit-s", number_text(self.time_limit_s))]
         pairs += [("--set", f"{key}={value}") for key, value in self.settings]
         return [text for pair in pairs for text in pair]
@@ -129,7 +135,9 @@ def filled(settings, values):
 class Reader:
     """Collects problems instead of stopping at the first."""
 
-    def __init__(self):
+    def __init__(self, folder):
+        self.folder = folder  # relative paths are seen from here
+        self.files = {}  # of a group: kind and name of a robot or planner that is a file -> its path
         self.problems = []
         self.asked = []  # missions whose group asks for the best possible
 
@@ -154,6 +162,24 @@ class Reader:
                 self.problems.append(f"{where}: \"{item}\" is no name (letters, digits, single "
                                      "_ . -)")
         return [str(item) for item in value]
+
+    def path(self, text):
+        return (self.folder / pathlib.Path(text).expanduser()).resolve()
+
+    def names_or_files(self, value, where):
+        """The same; paths of YAML files become their names and are kept in `files`."""
+        if not isinstance(value, list):
+            return self.names(value, where)
+        found = []
+        for item in map(str, value):
+            if "/" not in item and not item.endswith((".yaml", ".yml")):
+                found.append(item)
+                continue
+            path = self.path(item)
+            found.append(path.stem)
+            if self.files.setdefault((where.rpartition(".")[2], path.stem), str(path)) != str(path):
+                self.problems.append(f"{where}: two files are called \"{path.stem}\"")
+        return self.names(found, where)
 
     def is_positive(self, value, where):
         if isinstance(value, bool) or not isinstance(value, (int, float)) or not 0 < value < 1e7:
@@ -212,9 +238,11 @@ class Reader:
         """Every mission of one group."""
         if not self.is_map(group, where, GROUP_KEYS):
             return []
-        worlds, robots, planners, chosen = (
-            self.names(group.get(key, ["default"] if key == "parameter_sets" else None),
-                       f"{where}.{key}") for key in GROUP_LISTS)
+        self.files = {}
+        worlds = self.names(group.get("worlds"), f"{where}.worlds")
+        robots = self.names_or_files(group.get("robots"), f"{where}.robots")
+        planners = self.names_or_files(group.get("planners"), f"{where}.planners")
+        chosen = self.names(group.get("parameter_sets", ["default"]), f"{where}.parameter_sets")
         seeds = self.seeds(group.get("seeds"), f"{where}.seeds")
         times = self.times(group.get("time_limits_s"), f"{where}.time_limits_s")
         wall = group.get("wall_limit_s")
@@ -228,7 +256,8 @@ class Reader:
             Mission(world, robot, planner, name, float(time), seed,
                     filled(sets.get(name, ()), {"world": world, "robot": robot,
                                                 "time_limit_s": number_text(time)}),
-                    float(wall or 60 + 2 * time))
+                    float(wall or 60 + 2 * time), self.files.get(("robots", robot), ""),
+                    self.files.get(("planners", planner), ""))
             for world, robot, planner, name, time, seed
             in itertools.product(worlds, robots, planners, chosen, times, seeds)]
         if self.is_asked(group.get("best_possible", False), f"{where}.best_possible"):
@@ -266,16 +295,18 @@ def best_possible_of(missions, problems):
     by_name = {}
     for mission in missions:
         settings = tuple(pair for pair in mission.settings if pair[0].startswith(WHAT_IS_POSSIBLE))
-        asked = BestPossible(mission.world, mission.robot, mission.time_limit_s, settings)
+        asked = BestPossible(mission.world, mission.robot, mission.time_limit_s, settings,
+                             mission.robot_file)
         if by_name.setdefault(asked.name, asked) != asked:
             problems.append(f"best_possible {asked.name}: parameter sets differ in robot.* or "
                             "sensor.*, so there is no one best possible; describe two campaigns")
     return tuple(by_name[name] for name in sorted(by_name))
 
 
-def parse(content, meshes=None):
-    """The campaign that parsed YAML describes, and all that is wrong with it."""
-    reader = Reader()
+def parse(content, meshes=None, folder=pathlib.Path()):
+    """The campaign that parsed YAML describes, and all that is wrong with it. Relative paths of
+    robots and planners are seen from `folder`."""
+    reader = Reader(folder)
     if not reader.is_map(content, "campaign", TOP_KEYS):
         return None, reader.problems
     sets = reader.parameter_sets(content.get("parameter_sets"))
@@ -289,6 +320,7 @@ def parse(content, meshes=None):
     if not isinstance(described, dict):
         reader.problems.append("meshes: must be a map from name to the path of a mesh")
         described = {}
+    described = {name: str(reader.path(str(path))) for name, path in described.items()}
     return Campaign(str(content.get("title", "Campaign")), distinct(missions, reader.problems),
                     best_possible_of(reader.asked, reader.problems),
                     {**described, **(meshes or {})},
@@ -302,7 +334,7 @@ def read(path, meshes=None):
             content = yaml.safe_load(file)
     except (OSError, UnicodeDecodeError, yaml.YAMLError) as error:
         raise DescriptionError(path, [f"cannot be read: {error}"]) from error
-    campaign, problems = parse(content, meshes)
+    campaign, problems = parse(content, meshes, pathlib.Path(path).resolve().parent)
     if problems:
         raise DescriptionError(path, problems)
     return campaign

@@ -144,6 +144,12 @@ const ParamTree::Entry* ParamTree::find(const std::string& name) {
   return nullptr;
 }
 
+std::vector<std::string> ParamTree::sections() const {
+  std::set<std::string> found;
+  for (const auto& [name, entry] : entries_) found.insert(name.substr(0, name.find('.')));
+  return {found.begin(), found.end()};
+}
+
 std::string ParamTree::textOf(const std::string& name, const std::string& fallback) {
   const Entry* entry = find(name);
   return entry ? entry->text : fallback;

@@ -1,8 +1,38 @@
 #include "spelunk/common/robot_model.h"
 
 #include <algorithm>
+#include <filesystem>
+#include <set>
+
+#include "spelunk/common/file_lookup.h"
+#include "spelunk/common/self_filter.h"
 
 namespace spelunk {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string sensorFile(const std::string& sensor, const std::string& config_dir,
+                       const std::vector<std::string>& folders) {
+  if (looksLikePath(sensor)) return existingFile("sensor", sensor, folders);
+  std::vector<std::string> places{config_dir + "/sensors"};
+  places.insert(places.end(), folders.begin(), folders.end());
+  return existingFile("sensor", sensor + ".yaml", places);
+}
+
+SensorModel loadSensor(ParamTree& tree, const std::string& path) {
+  SensorModel sensor;
+  sensor.name = fs::path(path).stem().string();
+  ParamTree file;
+  file.addYamlFile(path);
+  file.read("sensor." + sensor.name, sensor);
+  file.requireClean();
+  tree.read("sensor." + sensor.name, sensor);
+  for (const std::string& problem : sensor.problems()) tree.addProblem(problem);
+  return sensor;
+}
+
+}  // namespace
 
 double longestRange(const RobotModel& robot) {
   double range = 0.0;
@@ -11,10 +41,21 @@ double longestRange(const RobotModel& robot) {
 }
 
 bool seesAllAround(const RobotModel& robot) {
-  constexpr double kFullCircle_deg = 359.0;
-  return std::any_of(
-      robot.sensor_models.begin(), robot.sensor_models.end(),
-      [](const SensorModel& sensor) { return sensor.fov_horizontal_deg >= kFullCircle_deg; });
+  return std::any_of(robot.sensor_models.begin(), robot.sensor_models.end(),
+                     [](const SensorModel& sensor) { return seesAllAround(sensor); });
+}
+
+double denseRange(const RobotModel& robot) {
+  double range = 0.0;
+  for (const SensorModel& sensor : robot.sensor_models)
+    range = std::max(range, denseRange(sensor, robot.box_m.z()));
+  return range;
+}
+
+double longestGainRange(const RobotModel& robot) {
+  double range = 0.0;
+  for (const SensorModel& sensor : robot.sensor_models) range = std::max(range, gainRange(sensor));
+  return range;
 }
 
 RobotKind kindOf(const RobotModel& robot) {
@@ -26,6 +67,16 @@ std::vector<std::string> RobotModel::problems() const {
   if (kind != "aerial" && kind != "legged")
     found.push_back("robot '" + name + "': kind '" + kind + "' must be aerial or legged");
   if (sensors.empty()) found.push_back("robot '" + name + "': needs at least one sensor");
+  if (acceleration_max_mps2 > braking_deceleration_mps2)
+    found.push_back(
+        "robot.acceleration_max_mps2 = " + toText(acceleration_max_mps2) +
+        " is more than robot.braking_deceleration_mps2 = " + toText(braking_deceleration_mps2) +
+        ": planned motion slows down by the first, a stop is the hardest it can do; "
+        "lower the first or raise the second");
+  if (kind == "legged" && ride_height_m <= 0.0)
+    found.push_back("robot.ride_height_m = " + toText(ride_height_m) +
+                    ": a legged robot carries its base above the ground; say how high");
+  (void)selfFilterBoxes(*this, &found);
   return found;
 }
 
@@ -44,21 +95,19 @@ double reachOf(const RobotModel& robot, double time_limit_s) {
   return robot.speed_max_mps * away_s + longestRange(robot);
 }
 
-RobotModel loadRobot(ParamTree& tree, const std::string& name, const std::string& config_dir) {
+RobotModel loadRobot(ParamTree& tree, const std::string& name, const std::string& config_dir,
+                     const std::vector<std::string>& folders) {
   RobotModel robot;
   robot.name = name;
   tree.read("robot", robot);
   for (const std::string& problem : robot.problems()) tree.addProblem(problem);
-  for (const std::string& sensor_name : robot.sensors) {
-    SensorModel sensor;
-    sensor.name = sensor_name;
-    ParamTree file;
-    file.addYamlFile(config_dir + "/sensors/" + sensor_name + ".yaml");
-    file.read("sensor." + sensor_name, sensor);
-    file.requireClean();
-    tree.read("sensor." + sensor_name, sensor);
-    for (const std::string& problem : sensor.problems()) tree.addProblem(problem);
-    robot.sensor_models.push_back(sensor);
+  std::set<std::string> names;
+  for (const std::string& given : robot.sensors) {
+    robot.sensor_models.push_back(loadSensor(tree, sensorFile(given, config_dir, folders)));
+    const std::string& sensor_name = robot.sensor_models.back().name;
+    if (!names.insert(sensor_name).second)
+      tree.addProblem("robot.sensors: two are called '" + sensor_name +
+                      "'; rename one of the files, parameters and frames go by their names");
   }
   return robot;
 }

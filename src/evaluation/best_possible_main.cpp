@@ -26,6 +26,8 @@ struct Options {
   double time_limit_s = 900.0;
   std::string out = "best_possible_out";
   std::string start;
+  double world_scale = 0.0;  ///< 0: as the world itself says.
+  std::string world_up;
   std::vector<std::string> assignments;
 };
 
@@ -46,10 +48,13 @@ void survey(const Options& options) {
   spelunk::evaluation::requireWritable(options.out);
   const auto mesh =
       spelunk::sim::openWorld(options.world, share_dir + "/worlds", spelunk::sim::defaultCacheDir(),
+                              spelunk::sim::meshFrameOf(options.world_scale, options.world_up),
                               spelunk::evaluation::surroundingsOf(
                                   options.start, config.robot, config.map, options.time_limit_s));
-  const spelunk::Pose start = spelunk::evaluation::startOf(options.start, options.world, mesh);
+  const spelunk::Pose start = spelunk::evaluation::startOf(options.start, mesh, config.robot.box_m);
   const spelunk::evaluation::ExplorationBound bound(mesh, start, config.robot);
+  if (const auto leak = bound.leak())
+    std::cerr << "best_possible: " << mesh.frame.toCaller(textOf(*leak, mesh.name)) << '\n';
   const std::vector<double> over = bound.over(options.time_limit_s);
   writeBound(over, options.out + "/bound.csv");
   const spelunk::sim::MeshScene scene(mesh);
@@ -68,11 +73,16 @@ int main(int argc, char** argv) {
   app.option_defaults()->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
   Options options;
   app.add_option("--world", options.world, "name from worlds/ or path of a mesh");
-  app.add_option("--robot", options.robot, "name from config/robots");
+  app.add_option("--robot", options.robot, "name from config/robots or path of a file like those");
   app.add_option("--time-limit-s", options.time_limit_s, "the robot is home before this time")
-      ->check(CLI::Range(1.0, 1e6));
+      ->check(CLI::Range(1.0, 1e6))
+      ->check(spelunk::evaluation::whyNotFinite);
   app.add_option("--out", options.out, "folder for bound.csv, survey.json and survey_seen.bin");
   app.add_option("--start", options.start, "x,y,z,yaw; wins over the world's own");
+  app.add_option("--world-scale", options.world_scale,
+                 "metres a unit of the mesh, 0.001 for millimetres; wins over its <name>.json");
+  app.add_option("--world-up", options.world_up,
+                 "axis of the mesh that points up: x, y or z; wins over its <name>.json");
   app.add_option("--set", options.assignments, "section.name=value, any parameter")->take_all();
   try {
     app.parse(argc, argv);

@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include "spelunk/common/contract.h"
+#include "spelunk/sim/start_proposal.h"
 
 namespace spelunk::evaluation {
 
@@ -19,6 +20,10 @@ std::optional<std::vector<double>> numbersIn(const std::string& text, std::size_
   return values.size() == count ? std::optional(values) : std::nullopt;
 }
 
+std::string whyNotFinite(const std::string& text) {
+  return numbersIn(text, 1) ? "" : "'" + text + "' is no finite number";
+}
+
 std::optional<Pose> startIn(const std::string& text) {
   if (text.empty()) return std::nullopt;
   const auto values = numbersIn(text, 4);
@@ -27,11 +32,10 @@ std::optional<Pose> startIn(const std::string& text) {
   return Pose{{values->at(0), values->at(1), values->at(2)}, values->at(3)};
 }
 
-Pose startOf(const std::string& text, const std::string& world, const sim::WorldMesh& mesh) {
+Pose startOf(const std::string& text, const sim::WorldMesh& mesh, const Eigen::Vector3d& robot_m) {
   if (const auto told = startIn(text)) return mesh.frame.written(*told);
   if (mesh.start) return *mesh.start;
-  throw OutsideError("world '" + world +
-                     "' says no start: give --start x,y,z,yaw or a <name>.json beside the mesh");
+  throw OutsideError(sim::missingStartText(mesh, robot_m, "--start "));
 }
 
 sim::Surroundings surroundingsOf(const std::string& start, const RobotModel& robot,

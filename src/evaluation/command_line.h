@@ -15,14 +15,18 @@ namespace spelunk::evaluation {
 [[nodiscard]] std::optional<std::vector<double>> numbersIn(const std::string& text,
                                                            std::size_t count);
 
-/// The start a program is told by "x,y,z,yaw" (the mesh file's frame), if it is told one. Throws
+/// Why a text is no finite number; empty if it is one. For options that only have a range: not a
+/// number lies in every range.
+[[nodiscard]] std::string whyNotFinite(const std::string& text);
+
+/// The start a program is told by "x,y,z,yaw" (world frame), if it is told one. Throws
 /// OutsideError.
 [[nodiscard]] std::optional<Pose> startIn(const std::string& text);
 
 /// The start a program is told, else the world's own, in the frame of the mesh. Throws
-/// OutsideError.
-[[nodiscard]] Pose startOf(const std::string& text, const std::string& world,
-                           const sim::WorldMesh& mesh);
+/// OutsideError, which proposes a place with room for a robot of `robot_m` if neither says one.
+[[nodiscard]] Pose startOf(const std::string& text, const sim::WorldMesh& mesh,
+                           const Eigen::Vector3d& robot_m);
 
 /// In which frame a world is held for a robot that starts there with so much time.
 [[nodiscard]] sim::Surroundings surroundingsOf(const std::string& start, const RobotModel& robot,

@@ -226,6 +226,8 @@ ExplorationBound::ExplorationBound(const sim::WorldMesh& mesh, const Pose& start
     : impl_(std::make_unique<Impl>(mesh, start, robot, params)) {}
 ExplorationBound::~ExplorationBound() = default;
 
+std::optional<Leak> ExplorationBound::leak() const { return impl_->space.leak; }
+
 std::vector<double> ExplorationBound::over(double time_limit_s) const {
   require(time_limit_s > 0.0, "ExplorationBound: the time limit must be positive");
   std::vector<double> bound;

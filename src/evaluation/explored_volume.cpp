@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "ray_block.h"
+#include "spelunk/common/contract.h"
 #include "spelunk/common/wide_loops.h"
 
 namespace spelunk::evaluation {
@@ -66,9 +67,25 @@ SPELUNK_WIDE_IF_POSSIBLE void findEnds(const float* ranges, const EndFrame& fram
 ExploredVolume::ExploredVolume(const AxisAlignedBox& bounds, double resolution_m, RayChoice choice)
     : seen_(bounds, resolution_m), endings_(bounds, resolution_m), choice_(choice) {}
 
-double ExploredVolume::volume_m3() const {
+double ExploredVolume::volume_m3() const { return volumeOf(voxels_); }
+
+double ExploredVolume::volumeOf(std::size_t voxels) const {
   const double edge = seen_.resolution();
-  return static_cast<double>(voxels_) * edge * edge * edge;
+  return static_cast<double>(voxels) * edge * edge * edge;
+}
+
+SeenVolume ExploredVolume::partedBy(const ReachableSpace& space) const {
+  require(space.free.size() == seen_.size() && space.free.corner() == seen_.corner(),
+          "ExploredVolume: the space has other bounds or another resolution");
+  std::size_t inside = 0;
+  if (space.is_enclosed) {
+    inside = std::min(voxels_, space.free_voxels + space.surface_voxels);
+  } else {
+    for (std::size_t word = 0; word < seen_.wordCount(); ++word)
+      inside += static_cast<std::size_t>(__builtin_popcountll(
+          seen_.words()[word] & (space.free.words()[word] | space.surface.words()[word])));
+  }
+  return {volumeOf(inside), volumeOf(voxels_ - inside)};
 }
 
 bool ExploredVolume::takes(const Scan& scan) {

@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "mail.h"
 #include "spelunk/common/contract.h"
 #include "spelunk/common/log.h"
+#include "spelunk/common/self_returns.h"
 #include "spelunk/common/stopwatch.h"
 
 namespace spelunk::evaluation {
@@ -19,6 +21,18 @@ constexpr double kOutOfEndurance_s = 0.05;
 constexpr double kStandstill_mps = 0.1;
 constexpr double kSaidAgain_s = 60.0;
 
+/// Where rays that meet nothing are reported, they make free space, and outside an open mesh that
+/// never ends: such a robot stays within the mesh. Others see no way out of it.
+AxisAlignedBox boundsOf(const RunSetup& setup, const sim::WorldMesh& mesh) {
+  const auto& sensors = setup.robot.sensor_models;
+  const bool sees_the_open =
+      std::any_of(sensors.begin(), sensors.end(),
+                  [](const SensorModel& sensor) { return sensor.reports_misses; });
+  if (!sees_the_open) return setup.bounds;
+  const AxisAlignedBox start = boxAround(setup.start.position, setup.robot.box_m);
+  return intersection(setup.bounds, hull(mesh.bounds(), start));
+}
+
 }  // namespace
 
 struct MissionRun::Impl {
@@ -28,6 +42,9 @@ struct MissionRun::Impl {
         planner(run_planner),
         simulator(setup.sim, setup.robot, mesh, setup.start, setup.seed),
         mission(setup.mission, setup.robot, setup.map, setup.seed, setup.terrain),
+        bounds(boundsOf(run_setup, mesh)),
+        self_returns(setup.robot, setup.map.range_min_m),
+        reachable(reachableSpace(mesh, setup.start.position)),
         explored(mesh.bounds()),
         scans(setup.delays.scan_s),
         outcomes(setup.delays.plan_s),
@@ -44,6 +61,7 @@ struct MissionRun::Impl {
   void noteLeg();
   void step();
   void sense();
+  void takeOutSelfReturns(Scan& scan);
   void plan();
   void takeOver();
   [[nodiscard]] bool getsLost();
@@ -64,6 +82,9 @@ struct MissionRun::Impl {
   planners::ExplorationPlanner& planner;
   sim::Simulator simulator;
   mission::Mission mission;
+  AxisAlignedBox bounds;  ///< Of exploration.
+  SelfReturns self_returns;
+  ReachableSpace reachable;
   ExploredVolume explored;
   Mail<Scan> scans;
   Mail<mission::PlanOutcome> outcomes;
@@ -74,6 +95,7 @@ struct MissionRun::Impl {
   double started_s = 0.0;
   Eigen::Vector3d last_position = Eigen::Vector3d::Zero();
   bool is_underway = false;  ///< To the point of the newest leg.
+  std::string stopped_why;   ///< Not empty: somebody ended the flight.
 };
 
 double MissionRun::Impl::remaining() const {
@@ -86,7 +108,8 @@ void MissionRun::Impl::sense() {
     explored.add(scan);
     if (!getsLost()) scans.send(scan.scan, now());
   }
-  for (const Scan& scan : scans.take(now())) {
+  for (Scan& scan : scans.take(now())) {
+    takeOutSelfReturns(scan);
     const map::MapUpdate update = mission.onScan(scan);
     if (update.dropped_far > 0 && said.allows("map range", now()))
       log(LogLevel::kWarn, map::beyondKeysText(update, setup.map));
@@ -94,6 +117,16 @@ void MissionRun::Impl::sense() {
   }
   mission.onOdometry(simulator.odometry());
   mission.onRemaining(remaining());
+}
+
+void MissionRun::Impl::takeOutSelfReturns(Scan& scan) {
+  for (const SensorModel& sensor : setup.robot.sensor_models) {
+    if (sensor.name != scan.sensor) continue;
+    const Eigen::Isometry3d mount = T_base_sensor(sensor);
+    scan.points = self_returns.without(scan.sensor, std::move(scan.points), mount,
+                                       scan.T_world_sensor * mount.inverse());
+  }
+  mission.noteInputs({"", self_returns.doubt(), self_returns.finding()});
 }
 
 bool MissionRun::Impl::getsLost() {
@@ -162,7 +195,7 @@ void MissionRun::Impl::warmUp() {
     sense();
     mission.tick(now());
   }
-  if (const auto answer = mission.setBounds(setup.bounds); !answer.accepted)
+  if (const auto answer = mission.setBounds(bounds); !answer.accepted)
     throw OutsideError("the bounds are refused: " + answer.reason);
   if (const auto answer = mission.setZones(setup.zones); !answer.accepted)
     throw OutsideError("the no-go zones are refused: " + answer.reason);
@@ -181,19 +214,10 @@ void MissionRun::Impl::nextLeg() {
   GoToRecord begun;
   begun.leg = leg;
   begun.path_length_m = -record.path_length_m;
-  mission::Answer given = mission.mayGoTo(leg.target);
-  navigation::NavigationAnswer answer;
-  if (given.accepted) {
-    auto query = mission.goToQuery(leg.target);
-    query->rng = Rng(setup.seed).fork("go_to/" + std::to_string(record.legs.size()));
-    answer = navigation::Navigator(leg.navigation).plan(*query);
-    given = mission.goTo(leg.navigation, *query, answer);
-    begun.status = mission.status().go_to;
-  }
+  const mission::Answer given = mission.goTo(leg.target, leg.navigation);
   if (!given.accepted) {
     begun.status.outcome = mission::GoToOutcome::kUnreachable;
     begun.status.reason = given.reason;
-    begun.status.nearest_reachable = answer.nearest_reachable;
   }
   record.legs.push_back(begun);
   is_underway = given.accepted;
@@ -214,8 +238,8 @@ void MissionRun::Impl::addTimelineRow() {
   const Pose pose = simulator.trueState().pose;
   const double clearance_m =
       simulator.scene().boxDistance(pose.position, simulator.bodySize(), kClearanceLimit_m);
-  record.timeline.push_back({now(), explored.volume_m3(), record.path_length_m, pose, remaining(),
-                             mission.status().state, clearance_m});
+  record.timeline.push_back({now(), explored.partedBy(reachable).inside_m3, record.path_length_m,
+                             pose, remaining(), mission.status().state, clearance_m});
 }
 
 Progress MissionRun::Impl::progress() const {
@@ -252,7 +276,8 @@ bool MissionRun::Impl::areLegsDone() const {
 }
 
 bool MissionRun::Impl::isOver() const {
-  return areLegsDone() || mission.status().state == mission::MissionState::kDone ||
+  return !stopped_why.empty() || areLegsDone() ||
+         mission.status().state == mission::MissionState::kDone ||
          simulator.walkerCount().falls > 0 || remaining() <= kOutOfEndurance_s;
 }
 
@@ -260,7 +285,10 @@ void MissionRun::Impl::finish() {
   const mission::MissionStatus status = mission.status();
   const Pose pose = simulator.trueState().pose;
   record.mission_time_s = now();
-  record.explored_volume_m3 = explored.volume_m3();
+  const SeenVolume seen = explored.partedBy(reachable);
+  record.explored_volume_m3 = seen.inside_m3;
+  record.explored_outside_m3 = seen.outside_m3;
+  record.reachable = volumeOf(reachable);
   record.collisions = simulator.collisions().episodes;
   record.collision_s = simulator.collisions().seconds;
   record.falls = simulator.walkerCount().falls;
@@ -272,6 +300,11 @@ void MissionRun::Impl::finish() {
   record.ended_as_it_may = record.returned_home && remaining() > 0.0;
   record.remaining_targets = mission.remaining();
   if (is_underway) noteLeg();
+  if (!stopped_why.empty() && !record.returned_home) {
+    record.outcome =
+        stopped_why + ", " + std::to_string(distance(pose, setup.start)) + " m from home";
+    return;
+  }
   if (!setup.legs.empty() && !record.returned_home) return finishLegs();
   record.outcome = record.returned_home ? status.end_reason
                                         : (record.falls > 0 ? "fell " : "stranded ") +
@@ -308,6 +341,9 @@ MissionRun::~MissionRun() = default;
 RunRecord MissionRun::fly(const std::function<void(const Progress&)>& show) {
   return impl_->fly(show);
 }
+
+void MissionRun::stop(const std::string& why) { impl_->stopped_why = why; }
+ReachableVolume MissionRun::reachable() const { return volumeOf(impl_->reachable); }
 
 mission::Mission& MissionRun::mission() { return impl_->mission; }
 

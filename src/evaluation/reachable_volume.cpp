@@ -1,131 +1,63 @@
 #include "spelunk/evaluation/reachable_volume.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <limits>
-#include <string>
 #include <utility>
 #include <vector>
 
+#include "enclosure.h"
+#include "leak_place.h"
+#include "mesh_voxels.h"
 #include "spelunk/common/contract.h"
-#include "spelunk/evaluation/voxel_grid.h"
+#include "spelunk/sim/mesh_scene.h"
+#include "spelunk/sim/start_check.h"
 
 namespace spelunk::evaluation {
 namespace {
 
-using Triangle = std::array<Eigen::Vector3d, 3>;
-
-/// Whether a triangle meets cubes of one size: separating axes (Akenine-Moeller, Fast 3D
-/// Triangle-Box Overlap Testing, Journal of Graphics Tools 6(1), 2001), with all that depends on
-/// the triangle alone worked out once. The three axes of the cube are the caller's bounding box.
-class TriangleTest {
+/// Fills the free voxels within the bounds that are joined to a start.
+class Flood {
  public:
-  TriangleTest(const Triangle& triangle, double half_edge) {
-    const std::array<Eigen::Vector3d, 3> edges{triangle[1] - triangle[0], triangle[2] - triangle[1],
-                                               triangle[0] - triangle[2]};
-    add(edges[0].cross(edges[1]), triangle, half_edge);
-    for (const Eigen::Vector3d& edge : edges)
-      for (int i = 0; i < 3; ++i) add(Eigen::Vector3d::Unit(i).cross(edge), triangle, half_edge);
+  Flood(const MeshVoxels& voxels, VoxelGrid& free) : voxels_(voxels), free_(free) {}
+
+  void fillFrom(const Eigen::Vector3i& start) {
+    visit(start, free_.offsetOf(start));
+    while (!open_.empty()) {
+      const std::size_t offset = open_.back();
+      open_.pop_back();
+      spread(free_.cellAt(offset), offset);
+    }
   }
 
-  /// The cubes of a row along x that the triangle meets, by the x of their centres; empty if
-  /// first > second.
-  [[nodiscard]] std::pair<double, double> rowMet(double y, double z) const {
-    double low = -std::numeric_limits<double>::infinity();
-    double high = std::numeric_limits<double>::infinity();
-    for (const Slab& slab : slabs_) {
-      const double rest = slab.axis.y() * y + slab.axis.z() * z;
-      if (slab.axis.x() == 0.0) {
-        if (rest < slab.low || rest > slab.high) return {1.0, 0.0};
-        continue;
-      }
-      const double from = (slab.low - rest) / slab.axis.x();
-      const double to = (slab.high - rest) / slab.axis.x();
-      low = std::max(low, std::min(from, to));
-      high = std::min(high, std::max(from, to));
-    }
-    return {low, high};
-  }
+  [[nodiscard]] std::size_t count() const { return count_; }
+  [[nodiscard]] bool leaks() const { return leaks_; }
 
  private:
-  struct Slab {
-    Eigen::Vector3d axis = Eigen::Vector3d::Zero();
-    double low = 0.0;  ///< A cube whose centre lies outside [low, high] along the axis is parted.
-    double high = 0.0;
-  };
-
-  void add(const Eigen::Vector3d& axis, const Triangle& triangle, double half_edge) {
-    const std::array<double, 3> along{axis.dot(triangle[0]), axis.dot(triangle[1]),
-                                      axis.dot(triangle[2])};
-    const double reach = half_edge * axis.cwiseAbs().sum();
-    slabs_[count_++] = {axis, *std::min_element(along.begin(), along.end()) - reach,
-                        *std::max_element(along.begin(), along.end()) + reach};
-  }
-
-  std::array<Slab, 10> slabs_;
-  std::size_t count_ = 0;
-};
-
-void markTriangle(const Triangle& triangle, VoxelGrid& surface) {
-  const Eigen::Vector3d low = triangle[0].cwiseMin(triangle[1]).cwiseMin(triangle[2]);
-  const Eigen::Vector3d high = triangle[0].cwiseMax(triangle[1]).cwiseMax(triangle[2]);
-  const Eigen::Vector3i first = surface.cellOf(low);
-  const Eigen::Vector3i last = surface.cellOf(high);
-  const double edge = surface.resolution();
-  const TriangleTest test(triangle, 0.5 * edge);
-  const double x_first = surface.centreOf(first).x();
-  const double columns = last.x() - first.x();
-  for (int z = first.z(); z <= last.z(); ++z)
-    for (int y = first.y(); y <= last.y(); ++y) {
-      const Eigen::Vector3i row(first.x(), y, z);
-      const Eigen::Vector3d centre = surface.centreOf(row);
-      const auto [from, to] = test.rowMet(centre.y(), centre.z());
-      const double begin = std::max(0.0, std::ceil((from - x_first) / edge));
-      const double end = std::min(columns, std::floor((to - x_first) / edge));
-      const std::size_t offset = surface.offsetOf(row);
-      for (double x = begin; x <= end; ++x) surface.set(offset + static_cast<std::size_t>(x));
-    }
-}
-
-VoxelGrid surfaceOf(const sim::WorldMesh& mesh, double resolution_m) {
-  VoxelGrid surface(mesh.bounds(), resolution_m);
-  for (const Eigen::Vector3i& corners : mesh.triangles) {
-    Triangle triangle;
-    for (int i = 0; i < 3; ++i)
-      triangle[static_cast<std::size_t>(i)] =
-          mesh.vertices[static_cast<std::size_t>(corners[i])].cast<double>();
-    markTriangle(triangle, surface);
-  }
-  return surface;
-}
-
-/// Whether a cell has no neighbour beyond a side of the grid.
-bool isInside(const VoxelGrid& grid, const Eigen::Vector3i& cell) {
-  return (cell.array() > 0).all() && (cell.array() + 1 < grid.size().array()).all();
-}
-
-/// Fills the free voxels joined to a start.
-void flood(const Eigen::Vector3i& start, const VoxelGrid& surface, ReachableSpace& space) {
-  std::vector<std::size_t> open;
-  const auto visit = [&](std::size_t offset) {
-    if (surface.isSet(offset) || !space.free.set(offset)) return;
-    ++space.free_voxels;
-    open.push_back(offset);
-  };
-  visit(surface.offsetOf(start));
-  while (!open.empty()) {
-    const std::size_t offset = open.back();
-    open.pop_back();
-    const Eigen::Vector3i cell = surface.cellAt(offset);
-    space.leaks = space.leaks || !isInside(surface, cell);
+  void spread(const Eigen::Vector3i& cell, std::size_t offset) {
     for (int axis = 0; axis < 3; ++axis) {
-      const std::size_t stride = surface.offsetOf(Eigen::Vector3i::Unit(axis));
-      if (cell(axis) > 0) visit(offset - stride);
-      if (cell(axis) + 1 < surface.size()(axis)) visit(offset + stride);
+      const Eigen::Vector3i step = Eigen::Vector3i::Unit(axis);
+      const std::size_t stride = free_.offsetOf(step);
+      if (voxels_.joins(offset, axis)) visit(cell + step, offset + stride);
+      if (voxels_.joins(offset - stride, axis)) visit(cell - step, offset - stride);
     }
   }
-}
+
+  void visit(const Eigen::Vector3i& cell, std::size_t offset) {
+    if (!voxels_.isWithin(cell)) {
+      leaks_ = true;
+      return;
+    }
+    if (!free_.set(offset)) return;
+    ++count_;
+    open_.push_back(offset);
+  }
+
+  const MeshVoxels& voxels_;
+  VoxelGrid& free_;
+  std::vector<std::size_t> open_;
+  std::size_t count_ = 0;
+  bool leaks_ = false;
+};
 
 bool touches(const VoxelGrid& reached, const Eigen::Vector3i& cell) {
   for (int z = -1; z <= 1; ++z)
@@ -137,40 +69,88 @@ bool touches(const VoxelGrid& reached, const Eigen::Vector3i& cell) {
   return false;
 }
 
-void keepTouched(const VoxelGrid& surface, ReachableSpace& space) {
-  surface.forEachSet([&](std::size_t offset) {
-    if (!touches(space.free, surface.cellAt(offset))) return;
-    space.surface.set(offset);
-    ++space.surface_voxels;
+/// Of the surface only what touches free voxels and is not free itself.
+void keepTouched(ReachableSpace& space) {
+  space.surface.forEachSet([&](std::size_t offset) {
+    if (!space.free.isSet(offset) && touches(space.free, space.surface.cellAt(offset)))
+      ++space.surface_voxels;
+    else
+      space.surface.clear(offset);
   });
+}
+
+/// The voxel of the start; else, where a triangle runs through that one too, the nearest of those
+/// around it whose centre can be seen from the start.
+Eigen::Vector3i freeVoxelAt(const sim::WorldMesh& mesh, const MeshVoxels& voxels,
+                            const Eigen::Vector3d& start) {
+  const VoxelGrid& grid = voxels.grid();
+  const Eigen::Vector3i own = grid.cellOf(start);
+  if (!voxels.isWithin(own))
+    throw OutsideError("the start " + sim::textOf(start, mesh) + " lies outside the mesh '" +
+                       mesh.name + "': choose one inside with --start x,y,z,yaw");
+  if (!voxels.isMet(grid.offsetOf(own))) return own;
+  std::vector<std::pair<double, std::size_t>> around;
+  for (int z = -1; z <= 1; ++z)
+    for (int y = -1; y <= 1; ++y)
+      for (int x = -1; x <= 1; ++x) {
+        const Eigen::Vector3i cell = own + Eigen::Vector3i(x, y, z);
+        if (voxels.isWithin(cell) && !voxels.isMet(grid.offsetOf(cell)))
+          around.emplace_back((grid.centreOf(cell) - start).norm(), grid.offsetOf(cell));
+      }
+  std::sort(around.begin(), around.end());
+  const sim::MeshScene scene(mesh);
+  for (const auto& [gap, offset] : around) {
+    const Eigen::Vector3i cell = grid.cellAt(offset);
+    if (!scene.castRay(start, (grid.centreOf(cell) - start) / gap, gap)) return cell;
+  }
+  throw OutsideError("the start " + sim::textOf(start, mesh) +
+                     " lies in the surface of the mesh '" + mesh.name +
+                     "': choose one in free space with --start x,y,z,yaw");
 }
 
 }  // namespace
 
 ReachableSpace reachableSpace(const sim::WorldMesh& mesh, const Eigen::Vector3d& start,
                               double resolution_m) {
-  const VoxelGrid surface = surfaceOf(mesh, resolution_m);
-  const Eigen::Vector3i cell = surface.cellOf(start);
-  if (!surface.contains(cell))
-    throw OutsideError("the start lies outside the mesh '" + mesh.name +
-                       "': choose one inside with --start x,y,z,yaw");
-  if (surface.isSet(surface.offsetOf(cell)))
-    throw OutsideError("the start lies in the surface of the mesh '" + mesh.name +
-                       "': choose one in free space with --start x,y,z,yaw");
-  ReachableSpace space{VoxelGrid(mesh.bounds(), resolution_m),
-                       VoxelGrid(mesh.bounds(), resolution_m)};
-  flood(cell, surface, space);
-  keepTouched(surface, space);
+  MeshVoxels voxels(mesh, resolution_m);
+  const Eigen::Vector3i first = freeVoxelAt(mesh, voxels, start);
+  VoxelGrid free(mesh.bounds(), resolution_m);
+  Flood flood(voxels, free);
+  flood.fillFrom(first);
+  std::optional<Leak> leak;
+  if (flood.leaks()) leak = findLeak(mesh, voxels, first);
+  ReachableSpace space{
+      std::move(free),        std::move(voxels).takeSurface(), flood.count(), 0, leak,
+      isEnclosed(mesh, start)};
+  keepTouched(space);
   return space;
+}
+
+ReachableVolume volumeOf(const ReachableSpace& space) {
+  const double voxel_m3 = std::pow(space.free.resolution(), 3);
+  return {static_cast<double>(space.free_voxels) * voxel_m3,
+          static_cast<double>(space.surface_voxels) * voxel_m3,
+          static_cast<double>(space.free_voxels + space.surface_voxels) * voxel_m3, space.leak};
 }
 
 ReachableVolume reachableVolume(const sim::WorldMesh& mesh, const Eigen::Vector3d& start,
                                 double resolution_m) {
-  const ReachableSpace space = reachableSpace(mesh, start, resolution_m);
-  const double voxel_m3 = resolution_m * resolution_m * resolution_m;
-  return {static_cast<double>(space.free_voxels) * voxel_m3,
-          static_cast<double>(space.surface_voxels) * voxel_m3,
-          static_cast<double>(space.free_voxels + space.surface_voxels) * voxel_m3, space.leaks};
+  return volumeOf(reachableSpace(mesh, start, resolution_m));
+}
+
+std::string textOf(const Leak& leak, const std::string& mesh_name) {
+  const std::string head = "the mesh '" + mesh_name + "' leaks";
+  const std::string tail =
+      "; reachable_volume_m3 holds what can be reached as far as the bounds of the mesh";
+  if (!leak.is_start_inside)
+    return head +
+           ": its triangles do not surround the start and face one way; the free space "
+           "around the start leaves the bounds of the mesh at " +
+           sim::textOf(leak.place) + tail;
+  return head + " at " + sim::textOf(leak.place) +
+         ": the free space around the start is open to the outside there. If that is no portal, "
+         "close the hole" +
+         tail;
 }
 
 }  // namespace spelunk::evaluation

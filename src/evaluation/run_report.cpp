@@ -138,6 +138,7 @@ RunRecord moved(RunRecord record, const Eigen::Vector3d& by) {
     leg.status = moved(std::move(leg.status), by);
   }
   record.remaining_targets = moved(std::move(record.remaining_targets), by);
+  if (auto& leak = record.reachable.leak) leak->place = moved(leak->place, by);
   return record;
 }
 
@@ -151,7 +152,9 @@ std::string summaryText(const ReportHeader& header, const RunRecord& record) {
             {"mission_time_s", rounded(record.mission_time_s)},
             {"wall_time_s", rounded(record.wall_time_s)},
             {"explored_volume_m3", rounded(record.explored_volume_m3)},
-            {"reachable_volume_m3", rounded(header.reachable_volume_m3)},
+            {"explored_outside_m3", rounded(record.explored_outside_m3)},
+            {"reachable_volume_m3", rounded(record.reachable.total_m3)},
+            {"mesh_leaks", record.reachable.leak.has_value()},
             {"path_length_m", rounded(record.path_length_m)},
             {"collisions", record.collisions},
             {"collision_s", rounded(record.collision_s)},
@@ -167,6 +170,7 @@ std::string summaryText(const ReportHeader& header, const RunRecord& record) {
             {"map_update_ms", jsonOf(spreadOf(record.map_update_ms))},
             {"peak_memory_mb", rounded(peakMemoryMb())},
             {"map_origin_m", jsonOf(header.frame.origin())}};
+  if (const auto& leak = record.reachable.leak) json["leak_m"] = jsonOf(leak->place);
   json["remaining_targets"] = remainingOf(record.remaining_targets);
   for (const GoToRecord& leg : record.legs) json["legs"].push_back(jsonOf(leg));
   return json.dump(2) + "\n";
@@ -186,14 +190,19 @@ Spread spreadOf(std::vector<double> values) {
 
 void requireWritable(const std::string& folder) {
   std::error_code error;
+  std::error_code ignored;
   std::filesystem::create_directories(folder, error);
+  if (!std::filesystem::is_directory(folder, ignored))
+    throw OutsideError("output folder '" + folder + "' cannot be made (" + error.message() +
+                       "): choose another with --out");
   const std::string probe = folder + "/.write_test";
   std::ofstream file(probe);
   file << "x";
   file.close();
   if (!file)
-    throw OutsideError("output folder '" + folder +
-                       "' is not writable: choose another with --out or change its rights");
+    throw OutsideError(
+        "output folder '" + folder +
+        "' is not writable: choose another with --out, change its rights or free some space");
   std::filesystem::remove(probe, error);
 }
 

@@ -20,6 +20,9 @@ constexpr std::size_t kPointsApart = 4;  // of a way; the positions between them
 constexpr float kRoomy_m = 1.2F;
 constexpr float kRoomClass_m = 0.3F;
 
+/// Of a robot that must turn to see all round; no camera's field is narrower than their spacing.
+constexpr int kHeadings = 16;
+
 /// A metre of way without any room counts as so many more.
 constexpr double kNarrowCost = 3.0;
 
@@ -28,7 +31,7 @@ class Lattice {
  public:
   Lattice(const sim::WorldMesh& mesh, const sim::MeshScene& scene, const Pose& start,
           const RobotModel& robot, const SurveyParams& params)
-      : step_m_(params.step_m, params.step_m, params.rise_m) {
+      : step_m_(stepFor(robot, params)) {
     const AxisAlignedBox bounds = mesh.bounds();
     const auto cellsTo = [&](const Eigen::Vector3d& corner) -> Eigen::Vector3i {
       return ((corner - start.position).array() / step_m_.array()).floor().cast<int>();
@@ -69,6 +72,11 @@ class Lattice {
  private:
   static constexpr float kUnseen = -2.0F;
   static constexpr float kNone = -1.0F;
+
+  /// Boxes at neighbouring positions overlap, so that no thin wall stands between them.
+  static Eigen::Vector3d stepFor(const RobotModel& robot, const SurveyParams& params) {
+    return Eigen::Vector3d(params.step_m, params.step_m, params.rise_m).cwiseMin(robot.box_m);
+  }
 
   template <class Visit>
   void forEachAround(const Eigen::Vector3i& cell, Visit&& visit) const {
@@ -202,19 +210,25 @@ class Surveyor {
 
   void look(const Eigen::Vector3d& outlook) {
     std::vector<std::uint8_t> seen((targets_.size() + 7) / 8, 0);
-    std::vector<float> ranges;
     for (const SensorModel& sensor : robot_.sensor_models) {
-      const Eigen::Isometry3d mount = T_base_sensor(sensor);
-      const Eigen::Vector3d origin = outlook + mount.translation();
-      std::vector<Eigen::Vector3f> directions = rayDirections(sensor);
-      for (Eigen::Vector3f& direction : directions)
-        direction = mount.linear().cast<float>() * direction;
-      scene_.castFan(origin.cast<float>(), directions, static_cast<float>(sensor.range_max_m),
-                     ranges);
-      for (std::size_t i = 0; i < directions.size(); ++i)
-        mark(origin, directions[i].cast<double>(), ranges[i], seen);
+      const int headings = seesAllAround(sensor) ? 1 : kHeadings;
+      for (int heading = 0; heading < headings; ++heading)
+        look(sensor, {outlook, 2.0 * M_PI * heading / headings}, seen);
     }
     result_.seen.push_back(std::move(seen));
+  }
+
+  void look(const SensorModel& sensor, const Pose& from, std::vector<std::uint8_t>& seen) const {
+    const Eigen::Isometry3d T_world_sensor = T_world_base(from) * T_base_sensor(sensor);
+    const Eigen::Vector3d origin = T_world_sensor.translation();
+    const Eigen::Matrix3f turn = T_world_sensor.linear().cast<float>();
+    std::vector<Eigen::Vector3f> directions = rayDirections(sensor);
+    for (Eigen::Vector3f& direction : directions) direction = turn * direction;
+    std::vector<float> ranges;
+    scene_.castFan(origin.cast<float>(), directions, static_cast<float>(sensor.range_max_m),
+                   ranges);
+    for (std::size_t i = 0; i < directions.size(); ++i)
+      mark(origin, directions[i].cast<double>(), ranges[i], seen);
   }
 
   void mark(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction, double range_m,

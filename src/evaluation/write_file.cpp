@@ -1,5 +1,8 @@
 #include "write_file.h"
 
+#include <unistd.h>
+
+#include <filesystem>
 #include <fstream>
 
 #include "spelunk/common/contract.h"
@@ -7,10 +10,15 @@
 namespace spelunk::evaluation {
 
 void writeFile(const std::string& path, const std::string& bytes) {
-  std::ofstream file(path, std::ios::binary);
+  const std::string partial = path + "." + std::to_string(getpid()) + ".part";
+  std::ofstream file(partial, std::ios::binary);
   file << bytes;
   file.close();
-  if (!file) throw OutsideError("cannot write '" + path + "': check the folder's rights and space");
+  std::error_code failure;
+  if (file) std::filesystem::rename(partial, path, failure);
+  if (file && !failure) return;
+  std::filesystem::remove(partial, failure);
+  throw OutsideError("cannot write '" + path + "': check the folder's rights and space");
 }
 
 }  // namespace spelunk::evaluation

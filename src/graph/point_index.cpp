@@ -1,6 +1,7 @@
 #include "spelunk/graph/point_index.h"
 
 #include <algorithm>
+#include <limits>
 #include <nanoflann.hpp>
 #include <utility>
 
@@ -9,7 +10,8 @@
 namespace spelunk::graph {
 namespace {
 
-constexpr std::size_t kPointsMax = 1U << 22U;  // sizes the forest: one tree a power of two
+/// As many points are looked at one by one as fast as in a tree.
+constexpr std::size_t kLooseMax = 32;
 constexpr std::size_t kLeafSize = 12;
 
 struct Points {
@@ -24,58 +26,106 @@ struct Points {
   }
 };
 
-using Forest =
-    nanoflann::KDTreeSingleIndexDynamicAdaptor<nanoflann::L2_Simple_Adaptor<double, Points>, Points,
-                                               3, std::size_t>;
+using KdTree = nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<double, Points>,
+                                                   Points, 3, std::size_t>;
+
+/// A point and its squared distance; the order in which answers come.
+struct Hit {
+  std::size_t index = 0;
+  double squared = std::numeric_limits<double>::infinity();
+  bool operator<(const Hit& other) const {
+    return squared != other.squared ? squared < other.squared : index < other.index;
+  }
+};
 
 }  // namespace
 
-struct PointIndex::Impl {
-  Points points;
-  Forest forest{3, points, nanoflann::KDTreeSingleIndexAdaptorParams(kLeafSize), kPointsMax};
+/// A k-d tree of the points from one index on; it never changes.
+class PointIndex::Tree {
+ public:
+  Tree(std::size_t first, std::vector<Eigen::Vector3d> points)
+      : first_(first),
+        points_{std::move(points)},
+        tree_(3, points_, nanoflann::KDTreeSingleIndexAdaptorParams(kLeafSize)) {
+    tree_.buildIndex();
+  }
+  Tree(const Tree&) = delete;  // its index refers to its points
+  Tree& operator=(const Tree&) = delete;
+
+  [[nodiscard]] std::size_t first() const { return first_; }
+  [[nodiscard]] std::size_t size() const { return points_.all.size(); }
+
+  void collect(const Eigen::Vector3d& query, double squared_radius, std::vector<Hit>& hits) const {
+    std::vector<std::pair<std::size_t, double>> found;
+    nanoflann::RadiusResultSet<double, std::size_t> result(squared_radius, found);
+    tree_.findNeighbors(result, query.data(), nanoflann::SearchParams());
+    for (const auto& [index, squared] : found) hits.push_back({first_ + index, squared});
+  }
+
+  [[nodiscard]] Hit nearest(const Eigen::Vector3d& query) const {
+    std::size_t index = 0;
+    double squared = 0.0;
+    nanoflann::KNNResultSet<double, std::size_t> result(1);
+    result.init(&index, &squared);
+    tree_.findNeighbors(result, query.data(), nanoflann::SearchParams());
+    return {first_ + index, squared};
+  }
+
+ private:
+  std::size_t first_;
+  Points points_;
+  KdTree tree_;
 };
 
-PointIndex::PointIndex() : impl_(std::make_unique<Impl>()) {}
-PointIndex::~PointIndex() = default;
-PointIndex::PointIndex(PointIndex&&) noexcept = default;
-PointIndex& PointIndex::operator=(PointIndex&&) noexcept = default;
-
-void PointIndex::add(const Eigen::Vector3d& point) {
-  require(point.allFinite(), "PointIndex: point is not finite");
-  impl_->points.all.push_back(point);
-  const std::size_t index = impl_->points.all.size() - 1;
-  impl_->forest.addPoints(index, index);
+std::size_t PointIndex::looseFrom() const {
+  return trees_.empty() ? 0 : trees_.back()->first() + trees_.back()->size();
 }
 
-std::size_t PointIndex::size() const { return impl_->points.all.size(); }
+template <class F>
+void PointIndex::forEachLoose(const Eigen::Vector3d& query, F&& take) const {
+  for (std::size_t i = looseFrom(); i < points_.size(); ++i)
+    take(i, (points_[i] - query).squaredNorm());
+}
 
-const Eigen::Vector3d& PointIndex::point(std::size_t index) const {
-  return impl_->points.all[index];
+/// Loose points become a tree, together with all trees that are no bigger than what they join.
+void PointIndex::add(const Eigen::Vector3d& point) {
+  require(point.allFinite(), "PointIndex: point is not finite");
+  points_.push_back(point);
+  std::size_t first = looseFrom();
+  if (points_.size() - first < kLooseMax) return;
+  while (!trees_.empty() && trees_.back()->size() <= points_.size() - first) {
+    first = trees_.back()->first();
+    trees_.pop_back();
+  }
+  trees_.push_back(std::make_shared<const Tree>(
+      first,
+      std::vector<Eigen::Vector3d>(points_.begin() + static_cast<long>(first), points_.end())));
 }
 
 std::optional<std::size_t> PointIndex::findNearest(const Eigen::Vector3d& query) const {
   if (size() == 0) return std::nullopt;
-  std::size_t index = 0;
-  double squared = 0.0;
-  nanoflann::KNNResultSet<double, std::size_t> result(1);
-  result.init(&index, &squared);
-  impl_->forest.findNeighbors(result, query.data(), nanoflann::SearchParams());
-  return index;
+  Hit best;
+  for (const auto& tree : trees_) best = std::min(best, tree->nearest(query));
+  forEachLoose(query, [&](std::size_t index, double squared) {
+    best = std::min(best, Hit{index, squared});
+  });
+  return best.index;
 }
 
 std::vector<std::size_t> PointIndex::findWithin(const Eigen::Vector3d& query,
                                                 double radius_m) const {
-  std::vector<std::pair<std::size_t, double>> hits;
-  if (size() > 0 && radius_m > 0.0) {
-    nanoflann::RadiusResultSet<double, std::size_t> result(radius_m * radius_m, hits);
-    impl_->forest.findNeighbors(result, query.data(), nanoflann::SearchParams());
+  std::vector<Hit> hits;
+  const double squared_radius = radius_m * radius_m;
+  if (radius_m > 0.0) {
+    for (const auto& tree : trees_) tree->collect(query, squared_radius, hits);
+    forEachLoose(query, [&](std::size_t index, double squared) {
+      if (squared < squared_radius) hits.push_back({index, squared});
+    });
   }
-  std::sort(hits.begin(), hits.end(), [](const auto& a, const auto& b) {
-    return a.second != b.second ? a.second < b.second : a.first < b.first;
-  });
+  std::sort(hits.begin(), hits.end());
   std::vector<std::size_t> indices;
   indices.reserve(hits.size());
-  for (const auto& hit : hits) indices.push_back(hit.first);
+  for (const Hit& hit : hits) indices.push_back(hit.index);
   return indices;
 }
 

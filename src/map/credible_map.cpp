@@ -87,7 +87,8 @@ class ChunkFilter {
         free_(kChunkSide + 2 * halo_),
         occupied_(free_.layers()),
         gaps_(free_.layers()),
-        wide_(free_.layers()) {}
+        wide_(free_.layers()),
+        silent_(free_.layers()) {}
 
   [[nodiscard]] Halo halo() const { return {kHalo / kBlockSide, halo_ / kBlockSide}; }
 
@@ -96,9 +97,11 @@ class ChunkFilter {
     load(blocks, key);
     StatusChunk chunk;
     chunk.key = key;
-    if (free_.isEmpty() && occupied_.isEmpty()) return chunk;
+    if (free_.isEmpty() && occupied_.isEmpty() && !has_silence_) return chunk;
+    closeSilence();
     closeColumns();
     growOccupied();
+    endAtSilence();
     store(chunk);
     return chunk;
   }
@@ -107,6 +110,8 @@ class ChunkFilter {
   void load(const FrozenMap::Blocks& blocks, PackedKey key) {
     free_.clear();
     occupied_.clear();
+    silent_.clear();
+    has_silence_ = false;
     const VoxelIndex first = unpackIndex(key) - VoxelIndex(kHalo, kHalo, halo_);
     for (int z = 0; z < free_.layers(); z += kBlockSide)
       for (int y = 0; y < kRows; y += kBlockSide)
@@ -121,24 +126,40 @@ class ChunkFilter {
     for (int k = 0; k < kBlockSide; ++k) {
       const std::uint64_t occupied = block.occupied[static_cast<std::size_t>(k)];
       const std::uint64_t free = block.known[static_cast<std::size_t>(k)] & ~occupied;
-      if ((free | occupied) == 0) continue;
+      const std::uint64_t silent = block.silent[static_cast<std::size_t>(k)];
+      if ((free | occupied | silent) == 0) continue;
+      has_silence_ |= silent != 0;
       for (int j = 0; j < kBlockSide; ++j) {
         free_.at(y + j, z + k) |= ((free >> (8 * j)) & 0xFF) << x;
         occupied_.at(y + j, z + k) |= ((occupied >> (8 * j)) & 0xFF) << x;
+        silent_.at(y + j, z + k) |= ((silent >> (8 * j)) & 0xFF) << x;
       }
     }
   }
 
-  /// Step 1: a closing by gap + 1 in z finds the gaps; free space spreads up and down through them;
-  /// what it does not reach is solid.
-  SPELUNK_WIDE_IF_POSSIBLE void closeColumns() {
-    if (gap_ <= 0) return;
-    for (int z = 0; z < gaps_.layers(); ++z)
-      for (int y = 0; y < kRows; ++y) gaps_.at(y, z) = free_.at(y, z) | occupied_.at(y, z);
+  /// Between the rows that look into an opening in vain there are gaps as well.
+  SPELUNK_WIDE_IF_POSSIBLE void closeSilence() {
+    if (!has_silence_ || gap_ <= 0) return;
+    gaps_ = silent_;
     spreadUp(gaps_, gap_ + 1);
     shrinkDown(gaps_, gap_ + 1);
     for (int z = 0; z < gaps_.layers(); ++z)
-      for (int y = 0; y < kRows; ++y) gaps_.at(y, z) &= ~(free_.at(y, z) | occupied_.at(y, z));
+      for (int y = 0; y < kRows; ++y)
+        silent_.at(y, z) |= gaps_.at(y, z) & ~(free_.at(y, z) | occupied_.at(y, z));
+  }
+
+  /// Step 1: a closing by gap + 1 in z finds the gaps; free space spreads up and down through them;
+  /// what it does not reach is solid. Silent voxels bound gaps and are none.
+  SPELUNK_WIDE_IF_POSSIBLE void closeColumns() {
+    if (gap_ <= 0) return;
+    for (int z = 0; z < gaps_.layers(); ++z)
+      for (int y = 0; y < kRows; ++y)
+        gaps_.at(y, z) = free_.at(y, z) | occupied_.at(y, z) | silent_.at(y, z);
+    spreadUp(gaps_, gap_ + 1);
+    shrinkDown(gaps_, gap_ + 1);
+    for (int z = 0; z < gaps_.layers(); ++z)
+      for (int y = 0; y < kRows; ++y)
+        gaps_.at(y, z) &= ~(free_.at(y, z) | occupied_.at(y, z) | silent_.at(y, z));
     const auto spread = [&](int from, int to) {
       for (int y = 0; y < kRows; ++y) free_.at(y, to) |= free_.at(y, from) & gaps_.at(y, to);
     };
@@ -148,13 +169,12 @@ class ChunkFilter {
       for (int y = 0; y < kRows; ++y) occupied_.at(y, z) |= gaps_.at(y, z) & ~free_.at(y, z);
   }
 
-  /// Step 2, where the chunk itself is affected.
-  SPELUNK_WIDE_IF_POSSIBLE void growOccupied() {
-    if (reach_ <= 0) return;
+  /// Fills wide_ with what lies near bits of `rows`, where the chunk itself is affected.
+  SPELUNK_WIDE_IF_POSSIBLE void widen(const Rows& rows) {
     for (int z = halo_ - 1; z <= halo_ + kChunkSide; ++z) {
       std::uint64_t row[kRows];
       for (int y = 0; y < kRows; ++y) {
-        const std::uint64_t in = occupied_.at(y, z);
+        const std::uint64_t in = rows.at(y, z);
         row[y] = in;
         for (int k = 1; k <= reach_; ++k) row[y] |= in << k | in >> k;
       }
@@ -164,11 +184,29 @@ class ChunkFilter {
         wide_.at(y, z) = all;
       }
     }
+  }
+  [[nodiscard]] std::uint64_t widened(int y, int z) const {
+    return wide_.at(y, z - 1) | wide_.at(y, z) | wide_.at(y, z + 1);
+  }
+
+  /// Step 2, where the chunk itself is affected.
+  SPELUNK_WIDE_IF_POSSIBLE void growOccupied() {
+    if (reach_ <= 0) return;
+    widen(occupied_);
     for (int z = halo_; z < halo_ + kChunkSide; ++z)
       for (int y = kHalo; y < kHalo + kChunkSide; ++y) {
-        occupied_.at(y, z) |= wide_.at(y, z - 1) | wide_.at(y, z) | wide_.at(y, z + 1);
+        occupied_.at(y, z) |= widened(y, z);
         free_.at(y, z) &= ~occupied_.at(y, z);
       }
+  }
+
+  /// Step 3: silent voxels and unknown ones as near to them as rock grows are solid.
+  SPELUNK_WIDE_IF_POSSIBLE void endAtSilence() {
+    if (!has_silence_) return;
+    widen(silent_);
+    for (int z = halo_; z < halo_ + kChunkSide; ++z)
+      for (int y = kHalo; y < kHalo + kChunkSide; ++y)
+        occupied_.at(y, z) |= widened(y, z) & ~free_.at(y, z);
   }
 
   void store(StatusChunk& chunk) const {
@@ -194,6 +232,8 @@ class ChunkFilter {
   Rows occupied_;
   Rows gaps_;
   Rows wide_;
+  Rows silent_;
+  bool has_silence_ = false;
 };
 
 struct VoxelCounts {
@@ -223,7 +263,7 @@ Sides sidesOf(int place, int halo) {
 }
 
 bool differ(const StatusBlock& a, const StatusBlock& b) {
-  return a.known != b.known || a.occupied != b.occupied;
+  return a.known != b.known || a.occupied != b.occupied || a.silent != b.silent;
 }
 
 /// Marks the chunks around `now`, as a bit each of 27, that its changes since `before` matter to.

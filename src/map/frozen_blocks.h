@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "block_map.h"
+#include "silent_voxels.h"
 #include "spelunk/map/frozen_map.h"
 #include "voxel_key.h"
 
@@ -15,6 +16,7 @@ inline constexpr int kChunkSide = 32;
 struct StatusBlock {
   Mask known{};
   Mask occupied{};
+  Mask silent{};  ///< Unknown voxels from which nothing returned; see OccupancyMap::watchSilence.
 };
 
 /// 4x4x4 blocks: what two snapshots share if nothing in it changed between them.
@@ -46,9 +48,17 @@ struct FrozenMap::Blocks {
 /// Whether `now` is `before` or came from it by changes: chunks keep their number for life.
 bool isLaterThan(const FrozenMap::Blocks& now, const FrozenMap::Blocks& before);
 
-/// The next snapshot: shares every chunk of `last` in which no block of `changed` lies.
+/// What changed since the last snapshot.
+struct MapChanges {
+  std::vector<std::uint32_t> status;  ///< Numbers of blocks.
+  std::vector<PackedKey> silence;     ///< Keys of blocks.
+  [[nodiscard]] bool empty() const { return status.empty() && silence.empty(); }
+};
+
+/// The next snapshot: shares every chunk of `last` in which nothing changed.
 std::shared_ptr<const FrozenMap::Blocks> freezeBlocks(const BlockMap& map,
-                                                      const std::vector<std::uint32_t>& changed,
+                                                      const SilentVoxels& silence,
+                                                      const MapChanges& changed,
                                                       const FrozenMap::Blocks& last);
 
 }  // namespace spelunk::map

@@ -53,16 +53,23 @@ class ChunkWriter {
 }  // namespace
 
 std::shared_ptr<const FrozenMap::Blocks> freezeBlocks(const BlockMap& map,
-                                                      const std::vector<std::uint32_t>& changed,
+                                                      const SilentVoxels& silence,
+                                                      const MapChanges& changed,
                                                       const FrozenMap::Blocks& last) {
   auto next = std::make_shared<FrozenMap::Blocks>(last);
   ChunkWriter writer(*next);
-  for (const std::uint32_t number : changed) {
+  const auto silenceUnknown = [&](StatusBlock& status, PackedKey key) {
+    status.silent = silence.silentIn(key);
+    for (std::size_t z = 0; z < status.silent.size(); ++z) status.silent[z] &= ~status.known[z];
+  };
+  for (const std::uint32_t number : changed.status) {
     const VoxelBlock& block = map.block(number);
     StatusBlock& status = writer.at(block.key);
     status.known = block.known;
     status.occupied = block.occupied;
+    silenceUnknown(status, block.key);
   }
+  for (const PackedKey key : changed.silence) silenceUnknown(writer.at(key), key);
   next->free_voxels = map.freeVoxels();
   next->occupied_voxels = map.occupiedVoxels();
   next->known = map.knownExtent();
@@ -88,6 +95,14 @@ VoxelIndex FrozenMap::indexOf(const Eigen::Vector3d& point) const {
 
 Eigen::Vector3d FrozenMap::centreOf(const VoxelIndex& index) const {
   return (index.cast<double>().array() + 0.5) * resolution_m_;
+}
+
+bool FrozenMap::isSilent(const VoxelIndex& index) const {
+  if (!isInKeyRange(index)) return false;
+  const PackedKey key = packIndex(index);
+  const StatusBlock* block = blocks_->find(key);
+  return block != nullptr &&
+         ((block->silent[static_cast<std::size_t>(wordOf(key))] >> bitOf(key)) & 1) != 0;
 }
 
 Occupancy FrozenMap::at(const VoxelIndex& index) const {

@@ -2,12 +2,15 @@
 
 #include <cmath>
 #include <cstdio>
+#include <map>
 
 #include "block_map.h"
 #include "frozen_blocks.h"
 #include "octree_file.h"
 #include "octree_mirror.h"
 #include "scan_tracer.h"
+#include "silence_watch.h"
+#include "silent_voxels.h"
 #include "spelunk/common/contract.h"
 #include "voxel_key.h"
 
@@ -36,12 +39,21 @@ struct OccupancyMap::Impl {
 
   void forget() {
     blocks = BlockMap(LogOdds(params));
+    silence = {};
     frozen = nullptr;
     tree = nullptr;
   }
 
+  /// The watch of the sensor a scan is of; nullptr if there is none.
+  [[nodiscard]] SilenceWatch* watchOf(const Scan& scan) {
+    const auto found = watches.find(scan.sensor);
+    return found == watches.end() ? nullptr : &found->second;
+  }
+
   MapParams params;
   BlockMap blocks;
+  SilentVoxels silence;
+  std::map<std::string, SilenceWatch> watches;  ///< By sensor.
   ScanPoints points;
   ScanTracer tracer;
   RayMarker marker;
@@ -73,7 +85,21 @@ MapUpdate OccupancyMap::insert(const Scan& scan, const AxisAlignedBox& robot_bod
     impl_->marker.markFree(impl_->walks, impl_->marks);
   }
   impl_->blocks.apply(impl_->marks, impl_->params.resolution_m, update);
+  SilenceWatch* watch = impl_->watchOf(scan);
+  if (watch != nullptr && watch->takes(scan)) {
+    std::vector<PackedKey> looked_into = watch->voxelsLookedInto(scan, impl_->blocks);
+    impl_->silence.countLook(looked_into);
+  }
   return update;
+}
+
+void OccupancyMap::watchSilence(const std::vector<SensorModel>& sensors, double robot_height_m) {
+  require(robot_height_m > 0.0, "OccupancyMap: the robot's height must be positive");
+  impl_->watches.clear();
+  for (const SensorModel& sensor : sensors)
+    if (!sensor.reports_misses)
+      impl_->watches.emplace(sensor.name,
+                             SilenceWatch(sensor, robot_height_m, impl_->params.resolution_m));
 }
 
 void OccupancyMap::markFree(const AxisAlignedBox& box) {
@@ -103,12 +129,12 @@ Occupancy OccupancyMap::at(const Eigen::Vector3d& point) const {
 const MapParams& OccupancyMap::params() const { return impl_->params; }
 
 std::shared_ptr<const FrozenMap> OccupancyMap::freeze() {
-  const std::vector<std::uint32_t> changed = impl_->blocks.takeStatusChanges();
+  const MapChanges changed{impl_->blocks.takeStatusChanges(), impl_->silence.takeChanges()};
   if (impl_->frozen != nullptr && changed.empty()) return impl_->frozen;
   const FrozenMap::Blocks nothing;
   const FrozenMap::Blocks& last = impl_->frozen ? impl_->frozen->blocks() : nothing;
-  impl_->frozen = std::make_shared<const FrozenMap>(freezeBlocks(impl_->blocks, changed, last),
-                                                    impl_->params.resolution_m);
+  impl_->frozen = std::make_shared<const FrozenMap>(
+      freezeBlocks(impl_->blocks, impl_->silence, changed, last), impl_->params.resolution_m);
   return impl_->frozen;
 }
 
@@ -136,8 +162,37 @@ void OccupancyMap::load(const std::string& path) {
   impl_->blocks = std::move(loaded);
 }
 
+void OccupancyMap::saveSilence(const std::string& path, const LocalFrame& frame) const {
+  const MapParams& params = impl_->params;
+  BlockMap silent{LogOdds(params)};
+  for (const PackedKey voxel : impl_->silence.all())
+    silent.setValue(voxel, silent.logOdds().clamp_max);
+  OcTreeMirror tree(params);
+  for (std::size_t i = 0; i < silent.blockCount(); ++i)
+    tree.updateMaximumLikelihood(silent.block(i));
+  writeOctree(tree, octreeFormatOf(path), path, frame);
+}
+
+void OccupancyMap::loadSilence(const std::string& path) {
+  BlockMap loaded{LogOdds(impl_->params)};
+  readOctree(path, impl_->params.resolution_m, loaded);
+  std::vector<PackedKey> silent;
+  for (std::size_t i = 0; i < loaded.blockCount(); ++i) {
+    const VoxelBlock& block = loaded.block(i);
+    for (int z = 0; z < kBlockSide; ++z)
+      for (std::uint64_t bits = block.occupied[static_cast<std::size_t>(z)]; bits != 0;
+           bits &= bits - 1) {
+        const int bit = __builtin_ctzll(bits);
+        silent.push_back(block.key + packKey(bit & 7, bit >> 3, z));
+      }
+  }
+  for (int look = 0; look < SilentVoxels::kLooks; ++look) impl_->silence.countLook(silent);
+}
+
 void OccupancyMap::clear() { impl_->forget(); }
 
-std::size_t OccupancyMap::memoryBytes() const { return impl_->blocks.memoryBytes(); }
+std::size_t OccupancyMap::memoryBytes() const {
+  return impl_->blocks.memoryBytes() + impl_->silence.memoryBytes();
+}
 
 }  // namespace spelunk::map

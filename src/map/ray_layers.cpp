@@ -14,12 +14,11 @@ class RayNumbering {
   explicit RayNumbering(const TemplateRays& rays)
       : rows_(rays.rows()), row_patches_((rows_ + 7) / 8) {}
 
-  [[nodiscard]] RayLayers::Patch patchOf(std::size_t ray) const {
-    const std::size_t column = ray / rows_;
-    const std::size_t row = ray % rows_;
-    const std::size_t bit = column % 8 * 8 + row % 8;
-    return {std::uint64_t{1} << bit,
-            static_cast<std::uint16_t>(column / 8 * row_patches_ + row / 8)};
+  [[nodiscard]] std::uint16_t wordOf(std::size_t ray) const {
+    return static_cast<std::uint16_t>(ray / rows_ / 8 * row_patches_ + ray % rows_ / 8);
+  }
+  [[nodiscard]] std::uint8_t bitOf(std::size_t ray) const {
+    return static_cast<std::uint8_t>(ray / rows_ % 8 * 8 + ray % rows_ % 8);
   }
 
  private:
@@ -27,23 +26,27 @@ class RayNumbering {
   std::size_t row_patches_;
 };
 
-/// One ray's passage through one voxel.
+/// One ray's passage through one voxel. Small: a wide field at a small angle has millions of them.
 struct Passage {
-  int layer;
+  std::uint16_t layer;
   TemplateRays::Step step;
-  RayLayers::Patch patch;
+  std::uint16_t word;
+  std::uint8_t bit;
 
-  [[nodiscard]] auto order() const { return std::tie(layer, step, patch.word); }
+  [[nodiscard]] auto order() const { return std::tie(layer, step, word); }
+  [[nodiscard]] RayLayers::Patch patch() const { return {std::uint64_t{1} << bit, word}; }
 };
 
 std::vector<Passage> passagesOf(const TemplateRays& rays) {
   const RayNumbering numbering(rays);
   std::vector<Passage> passages;
+  passages.reserve(rays.steps().size());
   for (std::size_t number = 0; number < rays.rays().size(); ++number) {
     const TemplateRays::Ray& ray = rays.rays()[number];
-    const RayLayers::Patch patch = numbering.patchOf(number);
+    const std::uint16_t word = numbering.wordOf(number);
+    const std::uint8_t bit = numbering.bitOf(number);
     for (std::uint32_t i = ray.begin; i < ray.end; ++i)
-      passages.push_back({static_cast<int>(i - ray.begin), rays.steps()[i], patch});
+      passages.push_back({static_cast<std::uint16_t>(i - ray.begin), rays.steps()[i], word, bit});
   }
   std::sort(passages.begin(), passages.end(),
             [](const Passage& a, const Passage& b) { return a.order() < b.order(); });
@@ -61,7 +64,7 @@ RayLayers::RayLayers(const TemplateRays& rays) {
     const TemplateRays::Step& step = passages[i].step;
     patches.clear();
     for (; i < passages.size() && passages[i].step == step; ++i) {
-      const Patch& patch = passages[i].patch;
+      const Patch patch = passages[i].patch();
       if (!patches.empty() && patches.back().word == patch.word)
         patches.back().rays |= patch.rays;
       else

@@ -41,8 +41,15 @@ class TemplateRays {
   TemplateRays(const SensorModel& sensor, double resolution_m);
 
   /// Rays at the base's `yaw`, rounded to the nearest of the headings kept: multiples of the angle
-  /// between rays for a level sensor, at least that for a pitched one.
+  /// between rays for a sensor whose axis is vertical, at least that for a tilted one.
   [[nodiscard]] Heading headingAt(double yaw) const;
+  /// Whether the rays are the same at every heading.
+  [[nodiscard]] bool isSameAtAllHeadings() const {
+    return is_upright_ && columns_ == circle_columns_;
+  }
+  /// How far the rays reach up and down, metres from the voxel's centre; neither is negative.
+  [[nodiscard]] double reachUp() const { return reach_up_m_; }
+  [[nodiscard]] double reachDown() const { return reach_down_m_; }
   /// Number of steps before the ray leaves `range`, which must contain offset 0. A ray leaves a box
   /// once, so these are all of its steps inside.
   [[nodiscard]] std::size_t stepsInside(const Ray& ray, const Range& range) const {
@@ -73,19 +80,26 @@ class TemplateRays {
   void addRay(const Eigen::Vector3d& direction, double solid_angle, double range_voxels);
   [[nodiscard]] double solidAngleOf(int row) const;
   void addCrossings(Ray& ray);
-  void addLevelCircle(double range_voxels);
-  void addPitchedHeadings(const SensorModel& sensor, double range_voxels);
+  void divideField(const SensorModel& sensor, double angle_factor);
+  void makeRoomForHeadings(const SensorModel& sensor, double range_voxels);
+  void addUprightCircle(double range_voxels);
+  void addTiltedHeadings(double range_voxels);
+  void measureHeight(double resolution_m);
   [[nodiscard]] double elevationOf(int row) const;
 
   Eigen::Vector3d mount_m_;
+  Eigen::Matrix3d R_base_sensor_;
   double mount_yaw_ = 0.0;
+  double field_middle_ = 0.0;  ///< Elevation in the sensor frame, radians.
   double fov_vertical_ = 0.0;
   double spacing_ = 0.0;  ///< Between columns, radians; divides the circle.
   int circle_columns_ = 0;
   int columns_ = 0;
   int rows_ = 0;
-  int headings_ = 1;  ///< Of a pitched sensor; a level one turns by columns.
-  bool is_level_ = true;
+  int headings_ = 1;        ///< Of a tilted sensor; an upright one turns by columns.
+  bool is_upright_ = true;  ///< Its axis is vertical, whichever end is up.
+  double reach_up_m_ = 0.0;
+  double reach_down_m_ = 0.0;
   std::vector<Ray> rays_;
   std::vector<Step> steps_;
   std::vector<float> cone_volumes_;

@@ -266,6 +266,7 @@ struct GainEvaluator::Impl {
 
   double resolution_m = 0.2;
   double reach_m = 0.0;
+  double reach_height_m = 0.0;
   GainCounting counting = GainCounting::kDistinct;
   float depth_voxels = std::numeric_limits<float>::infinity();
   std::vector<TemplateRays> sensors;
@@ -323,11 +324,14 @@ GainEvaluator::GainEvaluator(const std::vector<SensorModel>& sensors, double res
   impl_->depth_voxels = static_cast<float>(cone_depth_m / resolution_m);
   for (const SensorModel& sensor : sensors) {
     const TemplateRays& rays = impl_->sensors.emplace_back(sensor, resolution_m);
-    const bool is_circle = rays.headingAt(0.0).count == rays.rays().size();
     impl_->layers.emplace_back();
-    if (counting == GainCounting::kDistinct && is_circle) impl_->layers.back().emplace(rays);
+    if (counting == GainCounting::kDistinct && rays.isSameAtAllHeadings())
+      impl_->layers.back().emplace(rays);
     impl_->reach_m =
-        std::max(impl_->reach_m, sensor.gain_range_m + sensor.mount_m.norm() + resolution_m);
+        std::max(impl_->reach_m, gainRange(sensor) + sensor.mount_m.norm() + resolution_m);
+    const double height_m = std::max(rays.reachUp(), rays.reachDown());
+    impl_->reach_height_m =
+        std::max(impl_->reach_height_m, height_m + std::fabs(sensor.mount_m.z()) + resolution_m);
   }
 }
 GainEvaluator::~GainEvaluator() = default;
@@ -357,5 +361,6 @@ VolumetricGain GainEvaluator::evaluate(const LocalWindow& window, const Eigen::V
 }
 
 double GainEvaluator::reach() const { return impl_->reach_m; }
+double GainEvaluator::reachInHeight() const { return impl_->reach_height_m; }
 
 }  // namespace spelunk::map

@@ -15,18 +15,23 @@ using planners::PathKind;
 constexpr double kRestSpeed_mps = 0.2;
 /// After it every robot has come to rest, whatever its estimator says.
 constexpr double kSettleMax_s = 4.0;
-constexpr double kArrived_m = 0.4;
+constexpr double kArrived_m = 0.4;       // half a body: the next path begins there without a step
 constexpr double kArrivalGrace_s = 3.0;  // a robot that is late may still come
+/// Less is the drift of an estimator, or of a controller that holds.
+constexpr double kMoved_m = 0.15;
+/// A robot with legs that was timed anew so often without a step does not only turn slowly.
+constexpr int kRetimedInPlaceMax = 2;
 /// Between the robot's nose and what it stops before.
 constexpr double kStopMargin_m = 0.6;
 constexpr double kLagMax_m = 2.0;        // how far back on its line a late robot is looked for
 constexpr double kLagRetimed_m = 0.4;    // half a body length; less is the controller's work
 constexpr double kRetimePeriod_s = 2.0;  // a late robot shall not be timed anew at every tick
+/// How far rounded corners may leave the line; the first that stays free is the fastest.
 constexpr double kCornerTolerances_m[] = {0.6, 0.3};
-constexpr double kLeastTolerance_m = 0.1;
+constexpr double kLeastTolerance_m = 0.1;   // within a voxel of the line, which was checked
 constexpr double kTightTolerance_m = 0.02;  // without its margin the box has no room for more
-constexpr double kLineTolerance_m = 0.02;
-constexpr double kBackSpeedShare = 0.4;  // of the fastest walk
+constexpr double kLineTolerance_m = 0.02;   // points of a timed line that are one straight piece
+constexpr double kBackSpeedShare = 0.4;     // of the fastest walk
 
 Path pathOf(const std::vector<Eigen::Vector3d>& points) {
   Path path;
@@ -70,6 +75,7 @@ void Flight::fly(const Leg& leg, const Pose& here, double now_s) {
     whole.front() = motion.pose;
   } else {
     whole.front() = here;
+    sent_from_ = here.position;
   }
   Trajectory trajectory = smoothest(whole, start, leg.corner_box);
   active_.emplace(whole, trajectory, leg.kind, leg.box, space_.resolution());
@@ -94,6 +100,7 @@ void Flight::goBack(const Path& way, const Pose& here, double now_s) {
 void Flight::stop() {
   command_ = Command{};
   active_.reset();
+  retimed_in_place_ = 0;
 }
 
 bool Flight::isAtRest(const Eigen::Vector3d& velocity, double now_s) const {
@@ -136,14 +143,25 @@ std::optional<double> Flight::gapOffPath(const Pose& here, double now_s) const {
 std::optional<Leg> Flight::lateRest(const Pose& here, double now_s) {
   if (!active_ || !isLate(here, now_s) || now_s < next_retime_s_) return std::nullopt;
   next_retime_s_ = now_s + kRetimePeriod_s;
+  const bool has_moved = (here.position - sent_from_).norm() >= kMoved_m;
+  retimed_in_place_ = has_moved ? 0 : retimed_in_place_ + 1;
   return Leg(active_->line(nearestArc(here, now_s), active_->length()), active_->kind(),
              active_->box());
 }
 
 bool Flight::hasArrived(const Pose& here, double now_s) const {
-  if (!active_ || now_s < active_->endTime()) return false;
-  const double gap = distance(here, active_->trajectory().back().pose);
-  return gap <= kArrived_m || now_s >= active_->endTime() + kArrivalGrace_s;
+  return active_ && now_s >= active_->endTime() &&
+         distance(here, active_->trajectory().back().pose) <= kArrived_m;
+}
+
+bool Flight::isOverdue(const Pose& here, double now_s) const {
+  return active_ && now_s >= active_->endTime() + kArrivalGrace_s && !hasArrived(here, now_s);
+}
+
+bool Flight::isIgnored(const Pose& here, double now_s) const {
+  if (!active_ || (here.position - sent_from_).norm() >= kMoved_m) return false;
+  return gapOffPath(here, now_s) || isOverdue(here, now_s) ||
+         retimed_in_place_ >= kRetimedInPlaceMax;
 }
 
 void Flight::noteOccupied(const std::vector<map::VoxelIndex>& voxels, double now_s) {

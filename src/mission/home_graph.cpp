@@ -7,17 +7,17 @@
 namespace spelunk::mission {
 namespace {
 
-constexpr double kTrailSpacing_m = 0.5;
-constexpr double kRouteSpacing_m = 1.0;
-constexpr double kShortcutReach_m = 2.5;
-constexpr double kShortcutWorth = 2.0;  // a shortcut saves at least half of the way between
-constexpr std::size_t kShortcutTries = 4;
-constexpr double kTightCost = 20.0;  // flown once, but the margin is gone: the last resort
-constexpr double kJoinReach_m = 2.0;
-constexpr double kJoinReachOnFoot_m = 0.75;  // where it has walked, and no straight way elsewhere
-constexpr double kJoinCost = 1.5;
-constexpr std::size_t kRechecksPerCall = 20;
-constexpr double kPlaceSpacing_m = 2.0;
+constexpr double kTrailSpacing_m = 0.5;       // half a body: the line between two places was flown
+constexpr double kRouteSpacing_m = 1.0;       // a blocked edge costs no more of a checked way
+constexpr double kShortcutReach_m = 2.5;      // across a drift, or a pillar
+constexpr double kShortcutWorth = 2.0;        // a shortcut saves at least half of the way between
+constexpr std::size_t kShortcutTries = 4;     // from one place; each is a sweep
+constexpr double kTightCost = 20.0;           // flown once, but the margin is gone: the last resort
+constexpr double kJoinReach_m = 2.0;          // of a robot that has just left the trail
+constexpr double kJoinReachOnFoot_m = 0.75;   // where it has walked, and no straight way elsewhere
+constexpr double kJoinCost = 1.5;             // the way to the trail is not checked
+constexpr std::size_t kRechecksPerCall = 20;  // so that a call stays within a millisecond
+constexpr double kPlaceSpacing_m = 2.0;       // nearer places lie behind the same obstacle
 
 }  // namespace
 

@@ -1,11 +1,18 @@
 #include "spelunk/mission/mission.h"
 
 #include <cstdio>
+#include <filesystem>
 
 #include "mission_impl.h"
 #include "spelunk/common/contract.h"
 
 namespace spelunk::mission {
+namespace {
+
+/// Where nothing returned from; folders of earlier versions lack it.
+std::string silenceFile(const std::string& folder) { return folder + "/silence.bt"; }
+
+}  // namespace
 
 Mission::Impl::Impl(const MissionParams& mission_params, const RobotModel& robot_model,
                     const map::MapParams& map_params, std::uint64_t seed,
@@ -19,6 +26,7 @@ Mission::Impl::Impl(const MissionParams& mission_params, const RobotModel& robot
       basis{params, robot, watch, endurance, flight, space},
       way_home(basis),
       ground(basis, terrain_params),
+      vertical(basis),
       point(basis),
       desk(basis, Rng(seed).fork("mission")) {}
 
@@ -66,6 +74,7 @@ Mission::Mission(Mission&&) noexcept = default;
 Mission& Mission::operator=(Mission&&) noexcept = default;
 
 void Mission::onOdometry(const RobotState& state) { impl_->takeOdometry(state); }
+void Mission::noteInputs(const InputNotes& notes) { impl_->notes = notes; }
 map::MapUpdate Mission::onScan(const Scan& scan) { return impl_->takeScan(scan); }
 void Mission::onRemaining(double remaining_s) { impl_->takeRemaining(remaining_s); }
 
@@ -82,13 +91,9 @@ Answer Mission::mayGoTo(const Eigen::Vector3d& point) {
   const std::string problem = impl_->goToProblem(point);
   return {problem.empty(), problem};
 }
-std::optional<navigation::NavigationQuery> Mission::goToQuery(const Eigen::Vector3d& point) {
-  return impl_->goToQuery(point);
-}
-Answer Mission::goTo(const navigation::NavigationParams& params,
-                     const navigation::NavigationQuery& query,
-                     const navigation::NavigationAnswer& answer) {
-  return impl_->goTo({params, query}, answer);
+Answer Mission::goTo(const Eigen::Vector3d& point, const navigation::NavigationParams& params,
+                     double time_limit_s) {
+  return impl_->goTo(point, params, time_limit_s);
 }
 std::optional<planners::PlanRequest> Mission::requestHere(double now_s) {
   if (!impl_->watch.knowsPose()) return std::nullopt;
@@ -99,8 +104,10 @@ std::optional<Command> Mission::tick(double now_s) { return impl_->tick(now_s); 
 
 std::optional<PlanJob> Mission::takeJob() { return impl_->desk.takeJob(); }
 std::optional<Command> Mission::accept(const PlanOutcome& outcome, double now_s) {
-  return impl_->accept(outcome, now_s);
+  impl_->take(outcome, now_s);
+  return impl_->flight.takeCommand();
 }
+void Mission::take(const PlanOutcome& outcome, double now_s) { impl_->take(outcome, now_s); }
 
 MissionStatus Mission::status() const { return impl_->status(); }
 
@@ -136,6 +143,7 @@ Answer Mission::save(const std::string& folder, const planners::PlannerGraph& gr
     writeRecord(folder, record);
     impl_->space.map().save(folder + "/map.ot", frame);
     impl_->space.map().save(folder + "/map.bt", frame);
+    impl_->space.map().saveSilence(silenceFile(folder), frame);
   } catch (const OutsideError& error) {
     return {false, error.what()};
   }
@@ -147,6 +155,8 @@ Answer Mission::load(const std::string& folder, planners::PlannerGraph* graph) {
   try {
     MissionRecord record = readRecord(folder);
     impl_->space.map().load(folder + "/map.ot");
+    if (std::filesystem::exists(silenceFile(folder)))
+      impl_->space.map().loadSilence(silenceFile(folder));
     impl_->takeUp(record);
     if (graph != nullptr) *graph = std::move(record.graph);
   } catch (const OutsideError& error) {

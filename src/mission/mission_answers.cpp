@@ -15,10 +15,10 @@ constexpr double kAskAfterEnd_s = 0.1;  // a tick: then the robot is at the end 
 
 }  // namespace
 
-std::optional<Command> Mission::Impl::accept(const PlanOutcome& outcome, double now_s) {
+void Mission::Impl::take(const PlanOutcome& outcome, double now_s) {
   now = std::max(now, now_s);
   const auto job = desk.finish(outcome, now);
-  if (!job) return std::nullopt;
+  if (!job) return;
   switch (job->kind) {
     case Kind::kExplore:
       acceptExploration(*job, outcome);
@@ -35,13 +35,19 @@ std::optional<Command> Mission::Impl::accept(const PlanOutcome& outcome, double 
       acceptStep(point.take(outcome.go_to, way_home, now));
       break;
   }
-  return flight.takeCommand();
+}
+
+void Mission::Impl::askForPoint() {
+  desk.askForPoint(way_home, now,
+                   [&](const std::shared_ptr<const map::FrozenMap>& map, const Rng& rng) {
+                     return point.job(map, rng);
+                   });
 }
 
 void Mission::Impl::acceptExploration(const RunningJob& job, const PlanOutcome& outcome) {
   if (outcome.plan.status != PlanStatus::kOk) return noteNoPlan(job, outcome.plan);
   const Verdict verdict = judge(job, outcome, basis, way_home, now);
-  if (!verdict.isAccepted()) return refuse(verdict);
+  if (!verdict.isAccepted()) return refuse(verdict, outcome.plan);
   flyProposal(verdict.path, verdict.rest, outcome);
 }
 
@@ -49,7 +55,7 @@ void Mission::Impl::acceptExploration(const RunningJob& job, const PlanOutcome& 
 void Mission::Impl::flyProposal(const Path& path, const Path& rest, const PlanOutcome& outcome) {
   fly(Leg(path, outcome.plan.kind, robot.box_m));
   way_home.noteRoute(rest, outcome.home);
-  desk.noteAccepted(now);
+  desk.noteAccepted(outcome.plan, now);
   reason = outcome.plan.reason;
 }
 
@@ -63,8 +69,8 @@ void Mission::Impl::acceptSecondLook(const RunningJob& job, const PlanOutcome& o
   reason = why;
 }
 
-void Mission::Impl::refuse(const Verdict& verdict) {
-  desk.noteRefused(verdict.outcome, verdict.why);
+void Mission::Impl::refuse(const Verdict& verdict, const planners::PlanResult& plan) {
+  desk.noteRefused(plan, verdict.outcome, verdict.why);
   if (flight.active()) {
     desk.retryInFlight(now);
     reason = verdict.why;
@@ -76,19 +82,22 @@ void Mission::Impl::refuse(const Verdict& verdict) {
 }
 
 void Mission::Impl::noteNoPlan(const RunningJob& job, const planners::PlanResult& plan) {
+  desk.noteNone(plan);
   if (!job.from_standstill) {
     desk.retryInFlight(now);
     if (flight.active()) desk.askBy(flight.active()->endTime() + kAskAfterEnd_s);
     return;
   }
   if (plan.status == PlanStatus::kNothingToGain)
-    return happens(Event::kNothingLeft, "explored: " + plan.reason);
+    return happens(Event::kNothingLeft,
+                   "explored: " + plan.reason + (notes.flaw.empty() ? "" : "; but " + notes.flaw));
   if (plan.status == PlanStatus::kBudgetSaysHome)
     return happens(Event::kEnduranceLow, "home by endurance: " + plan.reason);
   noteFailure(std::string(planners::toText(plan.status)) + ": " + plan.reason);
 }
 
-void Mission::Impl::noteFailure(const std::string& why) {
+void Mission::Impl::noteFailure(const std::string& fault) {
+  const std::string why = withDoubt(fault);
   if (desk.noteFailure(now)) return happens(Event::kNoPlanForLong, "no plan found: " + why);
   happens(Event::kNoPlan, "no plan (" + why + "): trying again");
 }
@@ -115,8 +124,9 @@ void Mission::Impl::noteNoWayHome(const RunningJob& job, const planners::PlanRes
   desk.noteNoWayHome(job, now);
   if (flight.active()) return;
   const bool was_searched = job.kind == Kind::kNavigationsWayHome;
+  const std::string& obstacle = way_home.obstacle();  // empty where the trail was not tried yet
   say(LogLevel::kWarn, "home",
-      way_home.obstacle() +
+      (obstacle.empty() ? "no way home but the trail is known" : obstacle) +
           (was_searched ? "; no way round it is known: " : "; the planner knows no other: ") +
           home.reason);
 }
@@ -131,10 +141,7 @@ void Mission::Impl::acceptStep(const PointStep& step) {
       ++replans_obstacle;
       return happens(Event::kObstacleAhead, step.why);
     case PointStep::Kind::kAsk:
-      return desk.askForPoint(
-          way_home, now, [&](const std::shared_ptr<const map::FrozenMap>& map, const Rng& rng) {
-            return point.job(map, rng);
-          });
+      return askForPoint();
     case PointStep::Kind::kReached:
       return happens(Event::kPointReached, step.why);
     case PointStep::Kind::kUnreachable:

@@ -1,6 +1,7 @@
 #include <cstdio>
 
 #include "mission_impl.h"
+#include "spelunk/mission/openings_left.h"
 
 namespace spelunk::mission {
 namespace {
@@ -28,6 +29,11 @@ void Mission::Impl::happens(Event event, const std::string& why) {
       end_reason.clear();
       desk.beginExploring(now);
       return show(MissionState::kExplore, why);
+    case Action::kClimb:
+      if (before != Task::kTakeOff) vertical.begin();
+      return show(MissionState::kTakeOff, why);
+    case Action::kDescend:
+      return show(MissionState::kLand, why);
     case Action::kHold:
       return hold(event, why);
     case Action::kBackOff:
@@ -72,13 +78,18 @@ void Mission::Impl::hold(Event event, const std::string& why) {
 }
 
 void Mission::Impl::turnHome(Event event, Task before, const std::string& why) {
-  const bool may_afford_more = event == Event::kEnduranceLow && before == Task::kExplore;
+  // What was too far may come into reach on the way, and what could not be reached may be seen.
+  const bool may_find_more =
+      before == Task::kExplore && (event == Event::kEnduranceLow || event == Event::kNoPlanForLong);
+  turned_for = event;
   desk.drop();
-  desk.beginHome(may_afford_more ? PlanDesk::SecondLooks::kAllowed : PlanDesk::SecondLooks::kNone,
+  desk.beginHome(may_find_more ? PlanDesk::SecondLooks::kAllowed : PlanDesk::SecondLooks::kNone,
                  now);
-  end_reason = why;
-  show(MissionState::kHome, why);
-  if (inputs_ok) launchHome();
+  const auto openings = map::findOpenings(*space.map().freeze(), robot.box_m);
+  desk.noteOpenings(openings);
+  end_reason = why + (event == Event::kNothingLeft ? countText(openings) : "");
+  show(MissionState::kHome, end_reason);
+  if (mayMove()) launchHome();
 }
 
 void Mission::Impl::launchHome() {
@@ -94,6 +105,8 @@ void Mission::Impl::fly(const Leg& leg) {
   flight.fly(leg, watch.pose(), now);
   way_home.refreshAt(now);
   desk.noteFlown();
+  if (task == Task::kTakeOff) return show(MissionState::kTakeOff, "climbing");
+  if (task == Task::kLand) return show(MissionState::kLand, "going down");
   switch (leg.kind) {
     case PathKind::kLocal:
       return show(MissionState::kExplore, "local path");

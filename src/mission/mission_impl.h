@@ -12,6 +12,7 @@
 #include "spelunk/mission/point_flight.h"
 #include "spelunk/mission/proposal.h"
 #include "spelunk/mission/transitions.h"
+#include "spelunk/mission/vertical_flight.h"
 #include "spelunk/mission/way_home.h"
 
 namespace spelunk::mission {
@@ -36,9 +37,10 @@ struct Mission::Impl {
   Answer emergencyStop();
   Answer setBounds(const AxisAlignedBox& box);
   [[nodiscard]] std::string startProblem();
-  [[nodiscard]] std::optional<navigation::NavigationQuery> goToQuery(const Eigen::Vector3d& point);
+  [[nodiscard]] std::string withDoubt(const std::string& why) const;
   [[nodiscard]] std::string goToProblem(const Eigen::Vector3d& point);
-  Answer goTo(const PointJob& job, const navigation::NavigationAnswer& answer);
+  Answer goTo(const Eigen::Vector3d& target, const navigation::NavigationParams& navigation,
+              double time_limit_s);
   void markStandFree();
   void takeOff();
   [[nodiscard]] MissionRecord record(const planners::PlannerGraph& graph) const;
@@ -65,24 +67,29 @@ struct Mission::Impl {
   void checkGround();
   void backOff();
   void checkEndurance();
+  void checkCause();
+  void stepTakeOff();
   void stepHome();
+  void stepLanding();
   void stepPoint();
   void askForPlan();
 
   // --- What becomes of plans.
-  std::optional<Command> accept(const PlanOutcome& outcome, double now_s);
+  void take(const PlanOutcome& outcome, double now_s);
+  void askForPoint();
   void acceptExploration(const RunningJob& job, const PlanOutcome& outcome);
   void acceptSecondLook(const RunningJob& job, const PlanOutcome& outcome);
   void acceptWayHome(const RunningJob& job, const planners::PlanResult& home);
   void acceptStep(const PointStep& step);
   void flyProposal(const Path& path, const Path& rest, const PlanOutcome& outcome);
-  void refuse(const Verdict& verdict);
+  void refuse(const Verdict& verdict, const planners::PlanResult& plan);
   void noteNoPlan(const RunningJob& job, const planners::PlanResult& plan);
-  void noteFailure(const std::string& why);
+  void noteFailure(const std::string& fault);
   void noteNoWayHome(const RunningJob& job, const planners::PlanResult& home);
 
   [[nodiscard]] MissionStatus status() const;
   [[nodiscard]] bool isAtRest() const { return flight.isAtRest(watch.state().velocity, now); }
+  [[nodiscard]] bool mayMove() const { return inputs_ok && now >= resume_s; }
   /// A path of the robot's box as one of its base.
   [[nodiscard]] Path ofBase(Path path) const;
   [[nodiscard]] static std::string withNumber(const char* format, double value);
@@ -99,13 +106,18 @@ struct Mission::Impl {
   const Basis basis;
   WayHome way_home;
   GroundWatch ground;
+  VerticalFlight vertical;
   PointFlight point;
   PlanDesk desk;
 
   // --- State of the mission itself.
   double now = 0.0;  ///< Mission time of the newest tick or answer.
   Task task = Task::kIdle;
-  bool inputs_ok = false;  ///< At the last tick.
+  bool inputs_ok = false;                ///< At the last tick.
+  double resume_s = 0.0;                 ///< Until then it holds, for people to see why.
+  Event turned_for = Event::kHomeAsked;  ///< Why it goes home.
+  double next_cause_check_s = 0.0;
+  InputNotes notes;
   // What there is to see of it.
   MissionState shown = MissionState::kIdle;
   std::string reason;

@@ -2,13 +2,6 @@
 #include "spelunk/common/stopwatch.h"
 
 namespace spelunk::mission {
-namespace {
-
-/// A point that people send the robot to is planned from where it stands, but for its drift.
-constexpr double kStartGap_m = 0.5;
-
-}  // namespace
-
 void Mission::Impl::takeOdometry(const RobotState& base) {
   if (const auto fault = watch.takeOdometry(base, now))
     return say(LogLevel::kWarn, "odometry", *fault);
@@ -41,15 +34,25 @@ void Mission::Impl::takeRemaining(double remaining_s) {
     say(LogLevel::kWarn, "battery", "the reported endurance is not a number: it is not used");
 }
 
+/// Why there is no way for the robot, and what may be behind it.
+std::string Mission::Impl::withDoubt(const std::string& why) const {
+  return notes.doubt.empty() ? why : why + "; " + notes.doubt;
+}
+
 std::string Mission::Impl::startProblem() {
+  if (!notes.problem.empty()) return notes.problem;
   if (!watch.knowsPose()) return "no odometry yet: check the topic and the state estimation";
   if (watch.isTilted()) return "the robot lies on its side: help it up";
   const Eigen::Vector3d& position = watch.pose().position;
   if (const std::string problem = space.zones().problemAt(position); !problem.empty())
     return problem;
-  if (space.collidesAt(position))
-    return "start in collision: the map is occupied where the robot stands";
-  return "";
+  const Contact contact = space.contactAt(position);
+  if (contact.voxels == 0) return "";
+  return withDoubt("start in collision: " + std::to_string(contact.voxels) +
+                   " occupied voxels of the map touch the robot's body, " +
+                   spelunk::toText(space.bodyBox()) + " m around " + placeOf(position) +
+                   ", the nearest at " + placeOf(contact.nearest) +
+                   ": move the robot away from it, or correct robot.box_m or the odometry");
 }
 
 /// What the robot stands in, and some room around it, is free where it is unknown.
@@ -79,6 +82,8 @@ Answer Mission::Impl::start() {
   }
   takeOff();
   happens(Event::kStartAsked, "started");
+  if (isAtRest() && vertical.isNeeded())
+    happens(Event::kOnGround, "taking off: climbing to where there is room");
   return {true, "exploring"};
 }
 
@@ -108,20 +113,6 @@ Answer Mission::Impl::setBounds(const AxisAlignedBox& box) {
   return answer;
 }
 
-std::optional<navigation::NavigationQuery> Mission::Impl::goToQuery(const Eigen::Vector3d& point_) {
-  if (!watch.knowsPose()) return std::nullopt;
-  if (!way_home.isKnown() && startProblem().empty()) markStandFree();
-  navigation::NavigationQuery query;
-  query.map = space.map().freeze();
-  query.start = watch.pose();
-  query.goal = {point_ + Eigen::Vector3d(0.0, 0.0, robot.box_lift_m), query.start.yaw};
-  query.box = robot.box_m;
-  query.bounds = space.zones().bounds();
-  query.zones = space.zones().all();
-  query.trees = navigation::TreeDetail::kKeep;  // people look at them
-  return query;
-}
-
 std::string Mission::Impl::goToProblem(const Eigen::Vector3d& target) {
   if (!target.allFinite()) return "the point holds a number that is not finite";
   if (task == Task::kStopped) return "emergency stop is on: start releases it";
@@ -138,21 +129,22 @@ std::string Mission::Impl::goToProblem(const Eigen::Vector3d& target) {
   return "";
 }
 
-Answer Mission::Impl::goTo(const PointJob& job, const navigation::NavigationAnswer& answer) {
-  const Eigen::Vector3d lift(0.0, 0.0, robot.box_lift_m);
-  const std::string problem = goToProblem(job.query.goal.position - lift);
+Answer Mission::Impl::goTo(const Eigen::Vector3d& target,
+                           const navigation::NavigationParams& navigation, double time_limit_s) {
+  const std::string problem = goToProblem(target);
   if (!problem.empty()) return {false, problem};
-  if (answer.status != navigation::NavigationStatus::kOk) return {false, answer.reason};
-  if (distance(job.query.start, watch.pose()) > kStartGap_m)
-    return {false, "the path does not begin where the robot is"};
   takeOff();
   static_cast<void>(way_home.refresh(now));
-  happens(Event::kPointAsked, "flying to the point that was asked for");
+  PointJob job;
+  job.params = navigation;
+  job.query.goal = {target + Eigen::Vector3d(0.0, 0.0, robot.box_lift_m), watch.pose().yaw};
+  job.query.box = robot.box_m;
+  job.query.trees = navigation::TreeDetail::kKeep;  // people look at them
+  job.query.time_limit_s = time_limit_s;
+  happens(Event::kPointAsked, "planning the way to the point that was asked for");
   point.begin(job, now);
-  acceptStep(point.take(answer, way_home, now));
-  if (point.status().outcome == GoToOutcome::kUnderway)
-    return {true, "flying to the point that was asked for"};
-  return {false, point.status().reason};
+  askForPoint();
+  return {true, "planning the way to the point that was asked for"};
 }
 
 MissionRecord Mission::Impl::record(const planners::PlannerGraph& graph) const {
@@ -170,6 +162,7 @@ void Mission::Impl::takeUp(const MissionRecord& record) {
   space.zones().restore(record.bounds, record.given_zones, record.marked_zones);
   if (record.trail.empty()) return;
   endurance.takeUp(record.remaining_s);
+  desk.forgetReports();
   way_home.takeUp(record.trail, record.marked_zones);
 }
 

@@ -6,6 +6,10 @@ const char* toText(MissionState state) {
   switch (state) {
     case MissionState::kIdle:
       return "Idle";
+    case MissionState::kTakeOff:
+      return "TakeOff";
+    case MissionState::kLand:
+      return "Land";
     case MissionState::kExplore:
       return "Explore";
     case MissionState::kReposition:

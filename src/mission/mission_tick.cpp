@@ -9,6 +9,11 @@ constexpr double kRefreshPeriod_s = 0.5;  // of the way home: a robot gets a met
 constexpr double kInputRetry_s = 0.5;
 constexpr double kLookAgain_s = 1.0;  // some scans more of the ground ahead
 constexpr double kHomeRetry_s = 1.0;
+/// Before an ignored path is sent again: people need some time to see why it is.
+constexpr double kSendAgain_s = 2.0;
+constexpr const char* kIgnored =
+    "the robot does not follow its path: is the controller connected to `path` or "
+    "`command/trajectory`?";
 
 }  // namespace
 
@@ -18,6 +23,7 @@ std::optional<Command> Mission::Impl::tick(double now_s) {
   updateEndurance();  // what is left decides everything below
   updateWayHome();    // and what the way home takes of it; also at rest, for people to see
   if (!isRunning(task)) return flight.takeCommand();
+  // Each of the following steps may stop the robot; what is below it then sees it at rest.
   checkInputs();     // a robot that does not know where it is must not judge its path
   checkPath();       // a robot off its path is not where the checks of the path look
   checkArrival();    // a path at its end has nothing ahead to be checked
@@ -25,7 +31,10 @@ std::optional<Command> Mission::Impl::tick(double now_s) {
   checkGround();     // ... nor before bad ground, which asks the robot to back off
   backOff();         // before anything plans: plans from beside bad ground fail
   checkEndurance();  // after all stops: a stop changes the way home, and then home comes first
+  checkCause();      // the same for what the robot turned home for and is gone
+  stepTakeOff();     // before anything that needs room around the robot
   stepHome();        // before plans: a robot that is at home needs none
+  stepLanding();     // at once when home is reached
   stepPoint();       // the same for a flight to a point
   askForPlan();      // last: a plan begins from what was decided above
   return flight.takeCommand();
@@ -44,7 +53,7 @@ void Mission::Impl::updateWayHome() {
 }
 
 void Mission::Impl::checkInputs() {
-  const std::string problem = watch.problem(now);
+  const std::string problem = notes.problem.empty() ? watch.problem(now) : notes.problem;
   inputs_ok = problem.empty();
   if (inputs_ok) return;
   if (flight.active()) {
@@ -56,6 +65,17 @@ void Mission::Impl::checkInputs() {
 }
 
 void Mission::Impl::checkPath() {
+  if (flight.isIgnored(watch.pose(), now)) {
+    say(LogLevel::kWarn, "ignored", kIgnored);
+    happens(Event::kPathIgnored, kIgnored);
+    resume_s = now + kSendAgain_s;
+    return;
+  }
+  if (flight.isOverdue(watch.pose(), now)) {
+    ++replans_deviation;
+    return happens(Event::kLeftPath,
+                   "the robot did not come to the end of its path: planning anew");
+  }
   if (const auto gap_m = flight.gapOffPath(watch.pose(), now)) {
     ++replans_deviation;
     return happens(
@@ -73,7 +93,7 @@ void Mission::Impl::checkPath() {
 
 void Mission::Impl::checkArrival() {
   if (!flight.hasArrived(watch.pose(), now)) return;
-  if (!flight.goesHome()) desk.noteReached();
+  if (!flight.goesHome()) desk.noteOutcome(planners::PathOutcome::kReached, "");
   flight.drop();
   desk.askBy(now);
 }
@@ -83,7 +103,8 @@ void Mission::Impl::checkAhead() {
   if (!gap_m) return;
   ++replans_obstacle;
   happens(Event::kObstacleAhead,
-          withNumber("new obstacle %.1f m ahead on the path: stopped, planning anew", *gap_m));
+          withDoubt(
+              withNumber("new obstacle %.1f m ahead on the path: stopped, planning anew", *gap_m)));
 }
 
 void Mission::Impl::checkGround() {
@@ -109,19 +130,43 @@ void Mission::Impl::checkEndurance() {
     happens(Event::kEnduranceLow, "home by endurance: the way home takes what is left");
 }
 
+/// A way home that was lost and is known again, not only by the way that is being flown.
+void Mission::Impl::checkCause() {
+  if (task != Task::kHome || turned_for != Event::kWayHomeLost || now < next_cause_check_s) return;
+  next_cause_check_s = now + kRefreshPeriod_s;
+  if (!inputs_ok || !way_home.refresh(now) || way_home.margin_s() <= 0.0) return;
+  happens(Event::kWayHomeFound, "a way home is known again: going on");
+}
+
 void Mission::Impl::stepHome() {
-  if (task != Task::kHome || flight.active() || !inputs_ok) return;
-  if (way_home.isAtHome()) return happens(Event::kAtHome, end_reason);
+  if (task != Task::kHome || flight.active() || !mayMove()) return;
+  if (way_home.isAtHome())
+    return happens(vertical.hasStand() ? Event::kOverStand : Event::kAtHome, end_reason);
   const double pause_s = shown == MissionState::kHold ? kHomeRetry_s : 0.0;
   if (isAtRest() && now >= flight.holdsSince() + pause_s) launchHome();
 }
 
+void Mission::Impl::stepTakeOff() {
+  if (task != Task::kTakeOff || flight.active() || !mayMove() || !isAtRest()) return;
+  if (const auto climb = vertical.findClimb()) return fly(*climb);
+  // On the ground the robot's box has no room: home is above it.
+  if (!space.isTrailClear({way_home.home()}, robot.box_m)) way_home.begin();
+  happens(Event::kUp, "took off");
+}
+
+void Mission::Impl::stepLanding() {
+  if (task != Task::kLand || flight.active() || !mayMove() || !isAtRest()) return;
+  if (vertical.hasLanded()) return happens(Event::kDown, end_reason);
+  if (const auto down = vertical.findLanding()) return fly(*down);
+  happens(Event::kDown, end_reason + "; hovers: something lies where it took off");
+}
+
 void Mission::Impl::stepPoint() {
-  if (task == Task::kPoint && !desk.isBusy() && inputs_ok) acceptStep(point.step(way_home, now));
+  if (task == Task::kPoint && !desk.isBusy() && mayMove()) acceptStep(point.step(way_home, now));
 }
 
 void Mission::Impl::askForPlan() {
-  if (!inputs_ok || ground.isToBackOff()) return;
+  if (!mayMove() || ground.isToBackOff()) return;
   if (desk.wantsPlan(task, way_home, now)) desk.ask(task, way_home, now);
 }
 

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "spelunk/mission/openings_left.h"
+
 namespace spelunk::mission {
 namespace {
 
@@ -98,7 +100,7 @@ std::shared_ptr<const map::FrozenMap> PlanDesk::freeze(WayHome& way_home) {
 
 void PlanDesk::submit(const RunningJob& job,
                       std::variant<ExplorationJob, WayHomeJob, WayHomeSearch, PointJob> work) {
-  pending_ = PlanJob{job.number, std::move(work)};
+  pending_ = PlanJob{job.number, {}, std::move(work)};
   running_ = job;
 }
 
@@ -113,6 +115,7 @@ planners::PlanRequest PlanDesk::requestAt(const Pose& pose, double time_s,
   request.remaining_s = basis_.endurance.guard().disposable(0.0);
   request.bounds = basis_.space.zones().bounds();
   request.zones = basis_.space.zones().all();
+  request.zones_revision = basis_.space.zones().revision();
   request.trail = way_home.stampedTrail();
   request.budget.iterations = basis_.params.max_samples;
   return request;
@@ -138,14 +141,16 @@ void PlanDesk::ask(Task task, WayHome& way_home, double now_s) {
   planners::PlanRequest request = requestAt(job.pose, job.takes_over_s, way_home);
   request.velocity = velocity;
   request.remaining_s = basis_.endurance.guard().disposable(job.takes_over_s - now_s);
-  request.last_outcome = basis_.flight.active() ? planners::PathOutcome::kReplaced : last_outcome_;
-  request.last_reason = last_reason_;
   request.rng = rng_.fork("plan/" + number);
   if (job.kind == Kind::kPlannersWayHome) return submit(job, WayHomeJob{std::move(request)});
   submit(job, ExplorationJob{std::move(request)});
 }
 
-std::optional<PlanJob> PlanDesk::takeJob() { return std::exchange(pending_, std::nullopt); }
+std::optional<PlanJob> PlanDesk::takeJob() {
+  std::optional<PlanJob> job = std::exchange(pending_, std::nullopt);
+  if (job) job->reports = std::exchange(reports_, {});
+  return job;
+}
 
 std::optional<RunningJob> PlanDesk::finish(const PlanOutcome& outcome, double now_s) {
   if (!running_ || running_->number != outcome.number) return std::nullopt;
@@ -156,24 +161,32 @@ std::optional<RunningJob> PlanDesk::finish(const PlanOutcome& outcome, double no
   ++counts_.plans;
   counts_.last_stats = outcome.plan.stats;
   counts_.last_plan_status = planners::toText(outcome.plan.status);
-  remaining_ = outcome.plan.remaining;
+  planner_left_ = outcome.plan.remaining;
+  gatherRemaining();
   return job;
 }
 
-void PlanDesk::noteAccepted(double now_s) {
+void PlanDesk::noteAccepted(const planners::PlanResult& plan, double now_s) {
   failures_ = 0;
   last_accept_s_ = now_s;
-  last_outcome_ = planners::PathOutcome::kReplaced;
+  reports_.push_back({plan.memory, planners::PathOutcome::kReplaced, ""});
+  flies_reported_path_ = true;
+}
+
+void PlanDesk::noteRefused(const planners::PlanResult& plan, planners::PathOutcome outcome,
+                           const std::string& why) {
+  ++counts_.refused_paths;
+  reports_.push_back({plan.memory, outcome, why});
+  flies_reported_path_ = false;
+}
+
+void PlanDesk::noteNone(const planners::PlanResult& plan) {
+  reports_.push_back({plan.memory, planners::PathOutcome::kNone, plan.reason});
+  flies_reported_path_ = false;
 }
 
 void PlanDesk::noteOutcome(planners::PathOutcome outcome, const std::string& reason) {
-  last_outcome_ = outcome;
-  last_reason_ = reason;
-}
-
-void PlanDesk::noteRefused(planners::PathOutcome outcome, const std::string& why) {
-  ++counts_.refused_paths;
-  noteOutcome(outcome, why);
+  if (flies_reported_path_) reports_.push_back({nullptr, outcome, reason});
 }
 
 void PlanDesk::noteSecondLook(const planners::PlanResult& plan, double now_s) {
@@ -197,6 +210,16 @@ void PlanDesk::noteNoWayHome(const RunningJob& job, double now_s) {
   // Navigation knows nothing of footing.
   asks_navigation_ =
       kindOf(basis_.robot) == RobotKind::kAerial && job.kind != Kind::kNavigationsWayHome;
+}
+
+void PlanDesk::noteOpenings(const std::vector<map::Opening>& openings) {
+  openings_ = targetsOf(openings);
+  gatherRemaining();
+}
+
+void PlanDesk::gatherRemaining() {
+  remaining_ = planner_left_;
+  remaining_.insert(remaining_.end(), openings_.begin(), openings_.end());
 }
 
 }  // namespace spelunk::mission

@@ -12,6 +12,7 @@ struct Worker {
     outcome.plan = planner.plan(job.request);
     planners::PlanRequest from_end = job.request;
     if (!outcome.plan.path.empty()) from_end.pose = outcome.plan.path.back();
+    from_end.after = outcome.plan.memory;
     from_end.rng = job.request.rng.fork("home");
     outcome.home = planner.planHome(from_end);
   }
@@ -27,6 +28,7 @@ struct Worker {
 PlanOutcome run(const PlanJob& job, planners::ExplorationPlanner& planner) {
   PlanOutcome outcome;
   outcome.number = job.number;
+  for (const planners::PathReport& report : job.reports) planner.report(report);
   std::visit(Worker{planner, outcome}, job.work);
   return outcome;
 }

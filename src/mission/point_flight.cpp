@@ -64,9 +64,9 @@ std::optional<navigation::NavigationAnswer> PointFlight::plan() const {
 }
 
 void PointFlight::noteHeld(planners::PathOutcome outcome) {
-  if (task_)
-    task_->cause =
-        outcome == planners::PathOutcome::kBlocked ? Cause::kObstacle : Cause::kDeviation;
+  if (!task_) return;
+  task_->cause = outcome == planners::PathOutcome::kBlocked ? Cause::kObstacle : Cause::kDeviation;
+  if (outcome == planners::PathOutcome::kNone) task_->fruitless = 0;
 }
 
 void PointFlight::noteOccupied(const std::vector<map::VoxelIndex>& voxels) {

@@ -29,7 +29,7 @@ Verdict judge(const RunningJob& job, const PlanOutcome& outcome, const Basis& ba
               const WayHome& way_home, double now_s) {
   const Path& path = outcome.plan.path;
   if (!beginsWhereTheRobotIs(job, basis, now_s))
-    return refused(PathOutcome::kRejectedUnsafe,
+    return refused(PathOutcome::kNone,  // no fault of the path
                    "the plan came too late: its start lies behind the robot");
   if (!basis.space.isWalkable(path))
     return refused(PathOutcome::kRejectedUnsafe, "refused the planner's path: no footing along it");

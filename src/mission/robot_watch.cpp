@@ -9,8 +9,11 @@ namespace {
 
 /// An estimator or a sensor that is silent for so long has stopped.
 constexpr double kInputSilence_s = 1.0;
-/// A robot that sees what was so long ago cannot stop before what is there now.
-constexpr double kScanAgeMax_s = 2.0;
+/// A sensor that is slower than that has stopped when it leaves out so many scans.
+constexpr double kScansMissed = 3.0;
+/// A robot that sees what was so long ago, the time between two scans apart, cannot stop before
+/// what is there now.
+constexpr double kScanLateMax_s = 2.0;
 /// Clocks of computers that are kept in step differ by far less.
 constexpr double kScanFuture_s = 1.0;
 constexpr double kFallenTilt_deg = 50.0;  // no slope that a robot walks on tilts it so far
@@ -22,9 +25,20 @@ std::string withNumber(const char* format, double value) {
   return text;
 }
 
+/// Between two scans of the fastest sensor, seconds; 0 where none is described.
+double scanPeriodOf(const RobotModel& robot) {
+  double rate_hz = 0.0;
+  for (const SensorModel& sensor : robot.sensor_models) rate_hz = std::max(rate_hz, sensor.rate_hz);
+  return rate_hz > 0.0 ? 1.0 / rate_hz : 0.0;
+}
+
 }  // namespace
 
-RobotWatch::RobotWatch(const RobotModel& robot) : robot_(robot), input_(robot.speed_max_mps) {}
+RobotWatch::RobotWatch(const RobotModel& robot)
+    : robot_(robot),
+      input_(robot.speed_max_mps),
+      scan_period_s_(scanPeriodOf(robot)),
+      scan_silence_s_(std::max(kInputSilence_s, kScansMissed * scan_period_s_)) {}
 
 std::optional<std::string> RobotWatch::takeOdometry(const RobotState& base, double now_s) {
   RobotState report = base;
@@ -66,6 +80,7 @@ std::optional<std::string> RobotWatch::faultOf(const Scan& scan, double now_s) c
 /// Scans of sensors the robot's description does not name are all mapped.
 bool RobotWatch::takesScan(const Scan& scan, double now_s) {
   last_scan_s_ = std::max(now_s, scan.stamp_s);
+  newest_scan_s_ = std::max(newest_scan_s_, scan.stamp_s);
   double period_s = 0.0;
   for (const SensorModel& model : robot_.sensor_models)
     if (model.name == scan.sensor) period_s = model.mapping_period_s;
@@ -73,7 +88,7 @@ bool RobotWatch::takesScan(const Scan& scan, double now_s) {
 }
 
 void RobotWatch::noteMapped(const Scan& scan) {
-  newest_scan_s_ = std::max(newest_scan_s_, scan.stamp_s);
+  newest_mapped_s_ = std::max(newest_mapped_s_, scan.stamp_s);
   ++mapped_scans_;
 }
 
@@ -92,14 +107,16 @@ std::string RobotWatch::problem(double now_s) const {
   if (input_fault_) return *input_fault_;
   if (!last_odometry_s_ || now_s - *last_odometry_s_ > kInputSilence_s)
     return "no odometry for more than 1 s: check the state estimation";
-  if (last_scan_s_ && now_s - *last_scan_s_ > kInputSilence_s)
-    return "no scan for more than 1 s: check the sensor";
-  if (last_scan_s_ && scanAge(now_s) > kScanAgeMax_s)
+  if (!last_scan_s_) return "";
+  if (now_s - *last_scan_s_ > scan_silence_s_)
+    return withNumber("no scan for more than %.3g s: check the sensor", scan_silence_s_);
+  const double late_s = now_s - newest_scan_s_;
+  if (late_s > kScanLateMax_s + scan_period_s_)
     return withNumber("scans come in %.1f s late: the computer or the network is overloaded",
-                      scanAge(now_s));
+                      late_s);
   return "";
 }
 
-double RobotWatch::scanAge(double now_s) const { return std::max(0.0, now_s - newest_scan_s_); }
+double RobotWatch::scanAge(double now_s) const { return std::max(0.0, now_s - newest_mapped_s_); }
 
 }  // namespace spelunk::mission

@@ -4,7 +4,9 @@
 #include <cstdlib>
 #include <filesystem>
 
+#include "run_rules.h"
 #include "spelunk/common/contract.h"
+#include "spelunk/common/file_lookup.h"
 
 namespace spelunk::mission {
 namespace {
@@ -23,17 +25,55 @@ std::string namesIn(const std::string& folder) {
   return text;
 }
 
-void addNamed(ParamTree& tree, const std::string& folder, const std::string& kind,
-              const std::string& name) {
-  const std::string path = folder + "/" + name + ".yaml";
+std::string robotFile(const RunChoice& choice) {
+  if (looksLikePath(choice.robot)) return existingFile("robot", choice.robot, choice.folders);
+  const std::string folder = choice.share_dir + "/config/robots";
+  const std::string path = folder + "/" + choice.robot + ".yaml";
   if (!fs::exists(path))
-    throw OutsideError("unknown " + kind + " '" + name + "' (no " + path +
-                       "); known: " + namesIn(folder));
-  tree.addYamlFile(path);
+    throw OutsideError("unknown robot '" + choice.robot + "' (no " + path +
+                       "); give the path of a file or one of: " + namesIn(folder));
+  return path;
+}
+
+/// Which planner's parameters are where.
+struct PlannerChoice {
+  std::string name;
+  std::string file;  ///< Of the user; empty if there is none.
+};
+
+PlannerChoice plannerChoice(const RunChoice& choice) {
+  if (!looksLikePath(choice.planner)) return {choice.planner, ""};
+  const std::string file = existingFile("planner", choice.planner, choice.folders);
+  ParamTree content;
+  content.addYamlFile(file);
+  const std::vector<std::string> sections = content.sections();
+  if (sections.size() != 1)
+    throw OutsideError("planner file '" + file + "' holds " + std::to_string(sections.size()) +
+                       " sections; it must hold one, which names the planner, such as "
+                       "`gbplanner: {max_vertices: 400}`");
+  return {sections.front(), file};
 }
 
 void addIfPresent(ParamTree& tree, const std::string& path) {
   if (fs::exists(path)) tree.addYamlFile(path);
+}
+
+/// The sections of a run. What is 0 or absent and follows from another value is written out.
+void readFollowing(ParamTree& tree, RunConfig& config) {
+  config.map.range_max_m = 0.0;
+  tree.read("map", config.map);
+  if (config.map.range_max_m <= 0.0) config.map.range_max_m = mapRangeFor(config);
+  for (SensorModel& sensor : config.robot.sensor_models)
+    sensor = resolved(sensor, config.map.range_max_m);
+  tree.read("mission", config.mission);
+  tree.read("navigation", config.navigation);
+  config.terrain.elevation.base_height_m = 0.0;
+  config.terrain.elevation.body_m = config.robot.box_m;
+  config.terrain.footprint.footprint_length_m = config.robot.box_m.x();
+  config.terrain.footprint.footprint_width_m = config.robot.box_m.y();
+  tree.read("terrain", config.terrain);
+  if (config.terrain.elevation.base_height_m <= 0.0)
+    config.terrain.elevation.base_height_m = config.robot.ride_height_m;
 }
 
 }  // namespace
@@ -41,6 +81,10 @@ void addIfPresent(ParamTree& tree, const std::string& path) {
 std::string shareDir() {
   std::vector<std::string> places;
   if (const char* given = std::getenv("SPELUNK_SHARE")) places.emplace_back(given);
+  std::error_code failure;
+  const fs::path program = fs::read_symlink("/proc/self/exe", failure);  // <prefix>/lib/spelunk/x
+  if (!failure)
+    places.push_back((program.parent_path() / "../../share/spelunk").lexically_normal());
   places.emplace_back(SPELUNK_SOURCE_SHARE);
   places.emplace_back(SPELUNK_INSTALL_SHARE);
   std::string looked_at;
@@ -55,29 +99,27 @@ std::string shareDir() {
 RunConfig loadRunConfig(const RunChoice& choice) {
   RunConfig config;
   const std::string dir = choice.share_dir + "/config";
-  addNamed(config.tree, dir + "/robots", "robot", choice.robot);
+  const std::string robot_file = robotFile(choice);
+  const PlannerChoice planner = plannerChoice(choice);
+  config.tree.addYamlFile(robot_file);
   const bool is_legged = config.tree.textOf("robot.kind", "aerial") == "legged";
   for (const std::string& name :
        {std::string("map"), std::string("mission"), std::string("navigation"), std::string("sim"),
-        std::string("terrain"), "planners/" + choice.planner}) {
+        std::string("terrain"), "planners/" + planner.name}) {
     addIfPresent(config.tree, dir + "/" + name + ".yaml");
     if (is_legged) addIfPresent(config.tree, dir + "/" + name + "_legged.yaml");
   }
+  if (!planner.file.empty()) config.tree.addYamlFile(planner.file);
   for (const std::string& assignment : choice.assignments)
     config.tree.setAssignment(assignment, choice.assignments_origin);
-  config.robot = loadRobot(config.tree, choice.robot, dir);
-  config.tree.read("map", config.map);
-  for (const SensorModel& sensor : config.robot.sensor_models)
-    if (sensor.reports_misses && sensor.range_max_m <= config.map.range_max_m)
-      config.tree.addProblem("sensor." + sensor.name +
-                             ".reports_misses: map.range_max_m must be below the sensor's "
-                             "range_max_m, or its misses become obstacles");
-  config.tree.read("mission", config.mission);
-  config.tree.read("navigation", config.navigation);
+  std::vector<std::string> folders{fs::path(robot_file).parent_path().string()};
+  folders.insert(folders.end(), choice.folders.begin(), choice.folders.end());
+  config.robot = loadRobot(config.tree, fs::path(robot_file).stem().string(), dir, folders);
+  readFollowing(config.tree, config);
   for (const std::string& problem : config.navigation.problems()) config.tree.addProblem(problem);
-  config.tree.read("terrain", config.terrain);
   for (const std::string& problem : config.terrain.problems()) config.tree.addProblem(problem);
-  config.planner = choice.planner;
+  for (const std::string& problem : problemsBetween(config)) config.tree.addProblem(problem);
+  config.planner = planner.name;
   return config;
 }
 

@@ -7,15 +7,15 @@
 namespace spelunk::mission {
 namespace {
 
-/// The body's share of the safety box: half of it is margin, on both sides together.
-constexpr double kBodyShare = 0.5;
 /// A step out of a place whose margin is lost: longer ones are no step but a flight without margin.
 constexpr double kStepOut_m = 0.7;
 
 }  // namespace
 
 SafeSpace::SafeSpace(const map::MapParams& map_params, const RobotModel& robot)
-    : robot_(robot), map_(map_params), zones_(robot.box_m) {}
+    : robot_(robot), map_(map_params), zones_(robot.box_m) {
+  map_.watchSilence(robot.sensor_models, robot.box_m.z());
+}
 
 Eigen::Vector3d SafeSpace::bodyBox() const { return kBodyShare * robot_.box_m; }
 
@@ -72,14 +72,17 @@ bool SafeSpace::isWalkable(const Path& path) {
   return true;
 }
 
-bool SafeSpace::collidesAt(const Eigen::Vector3d& centre) {
+Contact SafeSpace::contactAt(const Eigen::Vector3d& centre) {
   const auto view = map_.freeze();
-  bool collides = false;
+  Contact contact;
   const Eigen::Vector3d touched =
       bodyBox() + Eigen::Vector3d::Constant(view->resolution());  // voxels at its faces
-  view->forEachOccupied(boxAround(centre, touched),
-                        [&](const map::VoxelIndex&) { collides = true; });
-  return collides;
+  view->forEachOccupied(boxAround(centre, touched), [&](const map::VoxelIndex& index) {
+    const Eigen::Vector3d voxel = view->centreOf(index);
+    const bool is_nearer = (voxel - centre).norm() < (contact.nearest - centre).norm();
+    if (contact.voxels++ == 0 || is_nearer) contact.nearest = voxel;
+  });
+  return contact;
 }
 
 }  // namespace spelunk::mission

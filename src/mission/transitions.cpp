@@ -20,14 +20,31 @@ const std::vector<Rule>& rules() {
       {T::kDone, E::kHomeAsked, T::kHome, A::kTurnHome},
       {T::kDone, E::kStopAsked, T::kStopped, A::kHalt},
 
+      // Taking off. A robot that is called home meanwhile comes down again.
+      {T::kTakeOff, E::kStartAsked, T::kTakeOff, A::kClimb},
+      {T::kTakeOff, E::kPauseAsked, T::kPaused, A::kHold},
+      {T::kTakeOff, E::kHomeAsked, T::kHome, A::kTurnHome},
+      {T::kTakeOff, E::kStopAsked, T::kStopped, A::kHalt},
+      {T::kTakeOff, E::kFell, T::kStopped, A::kHalt},
+      {T::kTakeOff, E::kInputsFailed, T::kTakeOff, A::kHold},
+      {T::kTakeOff, E::kLeftPath, T::kTakeOff, A::kHold},
+      {T::kTakeOff, E::kPathIgnored, T::kTakeOff, A::kHold},
+      {T::kTakeOff, E::kObstacleAhead, T::kTakeOff, A::kHold},
+      {T::kTakeOff, E::kGroundUnseen, T::kTakeOff, A::kHold},
+      {T::kTakeOff, E::kGroundBad, T::kTakeOff, A::kBackOff},
+      {T::kTakeOff, E::kEnduranceLow, T::kHome, A::kTurnHome},
+      {T::kTakeOff, E::kUp, T::kExplore, A::kExplore},
+
       // Exploring.
       {T::kExplore, E::kStartAsked, T::kExplore, A::kExplore},
+      {T::kExplore, E::kOnGround, T::kTakeOff, A::kClimb},
       {T::kExplore, E::kPauseAsked, T::kPaused, A::kHold},
       {T::kExplore, E::kHomeAsked, T::kHome, A::kTurnHome},
       {T::kExplore, E::kStopAsked, T::kStopped, A::kHalt},
       {T::kExplore, E::kFell, T::kStopped, A::kHalt},
       {T::kExplore, E::kInputsFailed, T::kExplore, A::kHold},
       {T::kExplore, E::kLeftPath, T::kExplore, A::kHold},
+      {T::kExplore, E::kPathIgnored, T::kExplore, A::kHold},
       {T::kExplore, E::kObstacleAhead, T::kExplore, A::kHold},
       {T::kExplore, E::kGroundUnseen, T::kExplore, A::kHold},
       {T::kExplore, E::kGroundBad, T::kExplore, A::kBackOff},
@@ -45,6 +62,7 @@ const std::vector<Rule>& rules() {
       {T::kPoint, E::kFell, T::kStopped, A::kHalt},
       {T::kPoint, E::kInputsFailed, T::kPoint, A::kHold},
       {T::kPoint, E::kLeftPath, T::kPoint, A::kHold},
+      {T::kPoint, E::kPathIgnored, T::kPoint, A::kHold},
       {T::kPoint, E::kObstacleAhead, T::kPoint, A::kHold},
       {T::kPoint, E::kGroundUnseen, T::kPoint, A::kHold},
       {T::kPoint, E::kGroundBad, T::kPoint, A::kBackOff},
@@ -52,7 +70,9 @@ const std::vector<Rule>& rules() {
       {T::kPoint, E::kPointReached, T::kPaused, A::kHold},
       {T::kPoint, E::kPointUnreachable, T::kPaused, A::kHold},
 
-      // On the way home nothing but home matters; what came into reach may be explored again.
+      // On the way home nothing but home matters; what came into reach may be explored again, and
+      // so
+      // may all when what the robot turned round for is gone.
       {T::kHome, E::kStartAsked, T::kExplore, A::kExplore},
       {T::kHome, E::kPauseAsked, T::kPaused, A::kHold},
       {T::kHome, E::kHomeAsked, T::kHome, A::kTurnHome},
@@ -60,12 +80,29 @@ const std::vector<Rule>& rules() {
       {T::kHome, E::kFell, T::kStopped, A::kHalt},
       {T::kHome, E::kInputsFailed, T::kHome, A::kHold},
       {T::kHome, E::kLeftPath, T::kHome, A::kHold},
+      {T::kHome, E::kPathIgnored, T::kHome, A::kHold},
       {T::kHome, E::kObstacleAhead, T::kHome, A::kHold},
       {T::kHome, E::kGroundUnseen, T::kHome, A::kHold},
       {T::kHome, E::kGroundBad, T::kHome, A::kBackOff},
       {T::kHome, E::kAffordableAgain, T::kExplore, A::kGoOn},
+      {T::kHome, E::kWayHomeFound, T::kExplore, A::kExplore},
       {T::kHome, E::kWayHomeBlocked, T::kHome, A::kHold},
       {T::kHome, E::kAtHome, T::kDone, A::kFinish},
+      {T::kHome, E::kOverStand, T::kLand, A::kDescend},
+
+      // Landing. Low endurance is one reason more to go on.
+      {T::kLand, E::kStartAsked, T::kExplore, A::kExplore},
+      {T::kLand, E::kPauseAsked, T::kPaused, A::kHold},
+      {T::kLand, E::kHomeAsked, T::kHome, A::kTurnHome},
+      {T::kLand, E::kStopAsked, T::kStopped, A::kHalt},
+      {T::kLand, E::kFell, T::kStopped, A::kHalt},
+      {T::kLand, E::kInputsFailed, T::kLand, A::kHold},
+      {T::kLand, E::kLeftPath, T::kLand, A::kHold},
+      {T::kLand, E::kPathIgnored, T::kLand, A::kHold},
+      {T::kLand, E::kObstacleAhead, T::kLand, A::kHold},
+      {T::kLand, E::kGroundUnseen, T::kLand, A::kHold},
+      {T::kLand, E::kGroundBad, T::kLand, A::kBackOff},
+      {T::kLand, E::kDown, T::kDone, A::kFinish},
 
       // Holding until people say how to go on.
       {T::kPaused, E::kStartAsked, T::kExplore, A::kExplore},
@@ -88,28 +125,35 @@ Rule ruleFor(Task task, Event event) {
 }
 
 const std::vector<Task>& allTasks() {
-  static const std::vector<Task> kTasks{Task::kIdle,   Task::kExplore, Task::kPoint,  Task::kHome,
-                                        Task::kPaused, Task::kDone,    Task::kStopped};
+  static const std::vector<Task> kTasks{Task::kIdle,    Task::kTakeOff, Task::kLand,
+                                        Task::kExplore, Task::kPoint,   Task::kHome,
+                                        Task::kPaused,  Task::kDone,    Task::kStopped};
   return kTasks;
 }
 
 const std::vector<Event>& allEvents() {
   static const std::vector<Event> kEvents{
-      Event::kStartAsked,      Event::kPauseAsked,    Event::kHomeAsked,      Event::kPointAsked,
-      Event::kStopAsked,       Event::kFell,          Event::kInputsFailed,   Event::kLeftPath,
-      Event::kObstacleAhead,   Event::kGroundUnseen,  Event::kGroundBad,      Event::kEnduranceLow,
-      Event::kAffordableAgain, Event::kWayHomeLost,   Event::kWayHomeBlocked, Event::kAtHome,
-      Event::kNoPlan,          Event::kNoPlanForLong, Event::kNothingLeft,    Event::kPointReached,
+      Event::kStartAsked,      Event::kPauseAsked,  Event::kHomeAsked,
+      Event::kPointAsked,      Event::kStopAsked,   Event::kFell,
+      Event::kInputsFailed,    Event::kLeftPath,    Event::kObstacleAhead,
+      Event::kGroundUnseen,    Event::kGroundBad,   Event::kEnduranceLow,
+      Event::kAffordableAgain, Event::kWayHomeLost, Event::kWayHomeBlocked,
+      Event::kAtHome,          Event::kOnGround,    Event::kUp,
+      Event::kOverStand,       Event::kDown,        Event::kNoPlan,
+      Event::kNoPlanForLong,   Event::kNothingLeft, Event::kPointReached,
       Event::kPointUnreachable};
   return kEvents;
 }
 
 bool isRunning(Task task) {
-  return task == Task::kExplore || task == Task::kPoint || task == Task::kHome;
+  return task == Task::kTakeOff || task == Task::kLand || task == Task::kExplore ||
+         task == Task::kPoint || task == Task::kHome;
 }
 
 planners::PathOutcome outcomeOf(Event event) {
   switch (event) {
+    case Event::kPathIgnored:
+      return planners::PathOutcome::kNone;  // nobody has flown it
     case Event::kPauseAsked:
       return planners::PathOutcome::kReplaced;
     case Event::kPointReached:

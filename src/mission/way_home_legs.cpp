@@ -88,7 +88,9 @@ std::optional<Leg> WayHome::legOfSeenWay(const Path& whole, double now_s) {
   const double travel_s = travelTime(whole);
   const auto& active = basis_.flight.active();
   if (active && travel_s > kWorthReplacing * (active->endTime() - now_s)) return std::nullopt;
-  if (!isWorthTheRisk(travel_s, wayByTrail())) return std::nullopt;
+  const auto by_trail = wayByTrail();
+  if (!isWorthTheRisk(travel_s, by_trail)) return std::nullopt;
+  if (!by_trail && basis_.space.isClear(whole, basis_.robot.box_m)) graph_->addRoute(whole);
   return Leg(whole, PathKind::kHome, basis_.robot.box_m);
 }
 

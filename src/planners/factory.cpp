@@ -20,11 +20,20 @@ Params paramsOf(const std::string& section, ParamTree& tree, Params params = {})
   return params;
 }
 
-/// The same, its rules between fields checked as well.
+/// What a planner is made for.
+struct Task {
+  const RobotModel& robot;
+  double resolution_m;
+};
+
+/// The same, its rules between fields checked as well, and those with the robot and the map.
 template <class Params>
-Params checkedParamsOf(const std::string& section, ParamTree& tree, const Params& defaults = {}) {
+Params checkedParamsOf(const std::string& section, ParamTree& tree, const Task& task,
+                       const Params& defaults = {}) {
   const Params params = paramsOf(section, tree, defaults);
   for (const std::string& problem : params.problems()) tree.addProblem(section + ": " + problem);
+  for (const std::string& problem : params.problemsFor(task.robot, task.resolution_m))
+    tree.addProblem(section + ": " + problem);
   return params;
 }
 
@@ -61,28 +70,32 @@ std::vector<std::string> plannerNames() {
           "frontier_utility", "frontier_rrt_star", "nbvp"};
 }
 
-std::vector<ParamDescription> describePlanner(const std::string& name, ParamTree& tree) {
+std::vector<ParamDescription> describePlanner(const std::string& name, ParamTree& tree,
+                                              const RobotModel& robot) {
   if (name == "gbplanner") return describe(name, paramsOf<gbplanner::GbPlannerParams>(name, tree));
-  if (name == "informed") return describe(name, paramsOf<informed::InformedParams>(name, tree));
+  if (name == "informed")
+    return describe(name, paramsOf<informed::InformedParams>(name, tree).resolvedFor(robot));
   if (name == kOracle) return describe(name, paramsOf<baselines::OracleParams>(name, tree));
   if (name == "nbvp") return describe(name, paramsOf<baselines::NbvpParams>(name, tree));
-  if (preferenceOf(name)) return describe(name, paramsOf(name, tree, frontierDefaults(name)));
+  if (preferenceOf(name))
+    return describe(name, paramsOf(name, tree, frontierDefaults(name)).resolvedFor(robot));
   refuseUnknown(name);
 }
 
 std::unique_ptr<ExplorationPlanner> makePlanner(const std::string& name, ParamTree& tree,
                                                 const RobotModel& robot, double resolution_m) {
+  const Task task{robot, resolution_m};
   if (name == "gbplanner")
     return std::make_unique<gbplanner::GbPlanner>(
-        checkedParamsOf<gbplanner::GbPlannerParams>(name, tree), robot, resolution_m);
+        checkedParamsOf<gbplanner::GbPlannerParams>(name, tree, task), robot, resolution_m);
   if (name == "informed") {
     requireFlying(name, robot);
     return std::make_unique<informed::InformedPlanner>(
-        checkedParamsOf<informed::InformedParams>(name, tree), robot, resolution_m);
+        checkedParamsOf<informed::InformedParams>(name, tree, task), robot, resolution_m);
   }
   if (name == "nbvp")
     return std::make_unique<baselines::NbvpPlanner>(
-        checkedParamsOf<baselines::NbvpParams>(name, tree), robot, resolution_m);
+        checkedParamsOf<baselines::NbvpParams>(name, tree, task), robot, resolution_m);
   if (name == kOracle) {
     const auto params = paramsOf<baselines::OracleParams>(name, tree);
     return std::make_unique<baselines::OraclePlanner>(params, baselines::readTour(params.tour),
@@ -91,7 +104,8 @@ std::unique_ptr<ExplorationPlanner> makePlanner(const std::string& name, ParamTr
   if (const auto preference = preferenceOf(name)) {
     requireFlying(name, robot);
     return std::make_unique<baselines::FrontierPlanner>(
-        checkedParamsOf(name, tree, frontierDefaults(name)), *preference, robot, resolution_m);
+        checkedParamsOf(name, tree, task, frontierDefaults(name)).resolvedFor(robot), *preference,
+        robot, resolution_m);
   }
   refuseUnknown(name);
 }

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "spelunk/ros/frame_name.h"
+
 namespace spelunk::bridge {
 namespace {
 
@@ -162,7 +164,7 @@ FromMsg<Eigen::Isometry3d> fromMsg(const geometry_msgs::Pose& message) {
 }
 
 FromMsg<Path> fromMsg(const nav_msgs::Path& message, const std::string& frame) {
-  if (message.header.frame_id != frame)
+  if (frameName(message.header.frame_id) != frameName(frame))
     return refused<Path>(wrongFrame(message.header.frame_id, frame));
   Path path;
   for (const geometry_msgs::PoseStamped& waypoint : message.poses) {
@@ -175,7 +177,7 @@ FromMsg<Path> fromMsg(const nav_msgs::Path& message, const std::string& frame) {
 
 FromMsg<Trajectory> fromMsg(const trajectory_msgs::MultiDOFJointTrajectory& message,
                             const std::string& frame) {
-  if (message.header.frame_id != frame)
+  if (frameName(message.header.frame_id) != frameName(frame))
     return refused<Trajectory>(wrongFrame(message.header.frame_id, frame));
   Trajectory trajectory;
   for (const auto& entry : message.points) {

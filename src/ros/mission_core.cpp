@@ -11,8 +11,9 @@ namespace {
 
 bool isFlying(mission::MissionState state) {
   using mission::MissionState;
-  return state == MissionState::kExplore || state == MissionState::kReposition ||
-         state == MissionState::kHome;
+  return state == MissionState::kTakeOff || state == MissionState::kExplore ||
+         state == MissionState::kReposition || state == MissionState::kHome ||
+         state == MissionState::kLand;
 }
 
 void place(MissionCore& core, const LocalFrame& frame) {
@@ -65,6 +66,12 @@ double missionTime(MissionCore& core, const ::ros::Time& now) {
     core.watch.report("clock jump", text, now_s);
   }
   return now_s;
+}
+
+void noteInputs(MissionCore& core, double now_s) {
+  const std::string problem =
+      core.clock_problem.empty() ? core.watch.waiting(now_s) : core.clock_problem;
+  core.mission.noteInputs({problem, core.doubt, core.flaw});
 }
 
 }  // namespace spelunk::bridge

@@ -7,9 +7,13 @@
 #include <utility>
 
 #include "spelunk/common/contract.h"
+#include "spelunk/common/file_lookup.h"
+#include "spelunk/common/log.h"
 #include "spelunk/mission/run_config.h"
 #include "spelunk/planners/factory.h"
+#include "spelunk/ros/frame_name.h"
 #include "spelunk/ros/params.h"
+#include "spelunk/sim/start_proposal.h"
 
 namespace spelunk::bridge {
 namespace {
@@ -23,6 +27,7 @@ Params readNodeParams(const PrivateParams& given) {
   Params params;
   tree.read("node", params);
   if (params.share_dir.empty()) params.share_dir = mission::shareDir();
+  params.world_frame = frameName(params.world_frame);
   return params;
 }
 
@@ -30,19 +35,24 @@ Params readNodeParams(const PrivateParams& given) {
 /// Both nodes read every section, so that one set of overrides serves both.
 template <class Params>
 mission::RunConfig loadConfig(const PrivateParams& given, const Params& params,
-                              const std::string& planner, sim::SimParams& sim, CloudParams& cloud) {
+                              CloudParams& cloud) {
   mission::RunChoice choice;
   choice.share_dir = params.share_dir;
   choice.robot = params.robot;
-  choice.planner = planner;
+  choice.planner = params.planner;
   choice.assignments = given.assignments;
   choice.assignments_origin = "~set";
+  choice.folders = {params.launch_dir, ""};
   mission::RunConfig config = mission::loadRunConfig(choice);
   addTo(config.tree, given.own);
   Params own;
   config.tree.read("node", own);
-  sim = sim::readSimParams(config.tree);
   config.tree.read("cloud", cloud);
+  if (cloud.voxel_size_m > config.map.resolution_m)
+    config.tree.addProblem(
+        "cloud.voxel_size_m = " + toText(cloud.voxel_size_m) +
+        " is coarser than map.resolution_m = " + toText(config.map.resolution_m) +
+        ": walls would have holes; set it to at most that");
   for (const std::string& problem : cloud.problems()) config.tree.addProblem(problem);
   return config;
 }
@@ -61,10 +71,11 @@ std::optional<Pose> startIn(const SimNodeParams& params) {
   return Pose{{numbers[0], numbers[1], numbers[2]}, numbers[3]};
 }
 
-Pose startOf(const SimNodeParams& params, const sim::WorldMesh& world) {
+Pose startOf(const SimNodeParams& params, const sim::WorldMesh& world,
+             const Eigen::Vector3d& robot_m) {
   if (const auto told = startIn(params)) return world.frame.written(*told);
   if (world.start) return *world.start;
-  throw OutsideError("world '" + params.world + "' has no start: give ~start as x, y, z, yaw");
+  throw OutsideError(sim::missingStartText(world, robot_m, "start:="));
 }
 
 }  // namespace
@@ -73,10 +84,16 @@ PlannerSetup loadPlannerSetup(const ::ros::NodeHandle& private_node) {
   const PrivateParams given = readPrivateParams(private_node);
   PlannerSetup setup;
   setup.node = readNodeParams<PlannerNodeParams>(given);
-  sim::SimParams sim;
-  mission::RunConfig config = loadConfig(given, setup.node, setup.node.planner, sim, setup.cloud);
+  mission::RunConfig config = loadConfig(given, setup.node, setup.cloud);
+  (void)sim::readSimParams(config.tree);
   setup.planner =
       planners::makePlanner(config.planner, config.tree, config.robot, config.map.resolution_m);
+  for (const SensorModel& sensor : config.robot.sensor_models)
+    if (setup.node.silence_s * sensor.rate_hz <= 1.0)
+      config.tree.addProblem("~silence_s = " + toText(setup.node.silence_s) +
+                             " is no longer than the time between scans of sensor." + sensor.name +
+                             ".rate_hz = " + toText(sensor.rate_hz) +
+                             ": every gap would be a warning; raise it");
   config.tree.requireClean();
   setup.robot = config.robot;
   setup.mission = config.mission;
@@ -90,10 +107,12 @@ SimSetup loadSimSetup(const ::ros::NodeHandle& private_node) {
   const PrivateParams given = readPrivateParams(private_node);
   SimSetup setup;
   setup.node = readNodeParams<SimNodeParams>(given);
+  setup.node.base_frame = frameName(setup.node.base_frame);
   if (setup.node.worlds_dir.empty()) setup.node.worlds_dir = setup.node.share_dir + "/worlds";
   if (setup.node.cache_dir.empty()) setup.node.cache_dir = sim::defaultCacheDir();
   CloudParams cloud;
-  mission::RunConfig config = loadConfig(given, setup.node, setup.node.planner, setup.sim, cloud);
+  mission::RunConfig config = loadConfig(given, setup.node, cloud);
+  setup.sim = sim::readSimParams(config.tree, config.robot);
   (void)planners::makePlanner(config.planner, config.tree, config.robot, config.map.resolution_m);
   config.tree.requireClean();
   setup.robot = config.robot;
@@ -105,9 +124,19 @@ SimSetup loadSimSetup(const ::ros::NodeHandle& private_node) {
 
 SimWorld openWorld(const SimSetup& setup) {
   const SimNodeParams& params = setup.node;
+  const std::string name = looksLikePath(params.world)
+                               ? existingFile("mesh", params.world, {params.launch_dir, ""})
+                               : params.world;
   SimWorld world;
-  world.mesh = sim::openWorld(params.world, params.worlds_dir, params.cache_dir, setup.around);
-  world.start = startOf(params, world.mesh);
+  world.mesh = sim::openWorld(
+      name, params.worlds_dir, params.cache_dir,
+      sim::meshFrameOf(params.world_scale, params.world_up, {"world_scale:=", "world_up:="}),
+      setup.around);
+  world.start = startOf(params, world.mesh, setup.robot.box_m);
+  if (world.mesh.exploration_bounds)
+    log(LogLevel::kInfo,
+        "the bounds beside the mesh limit exploration where planner_node is told "
+        "them: call its service ~set_bounds");
   return world;
 }
 

@@ -2,6 +2,9 @@
 
 #include <cstdio>
 
+#include "spelunk/ros/frame_name.h"
+#include "spelunk/ros/stamp_check.h"
+
 namespace spelunk::bridge {
 namespace {
 
@@ -15,34 +18,31 @@ std::string seconds(double value) {
 
 std::string PendingClouds::push(const sensor_msgs::PointCloud2::ConstPtr& cloud,
                                 const ::ros::Time& now) {
-  if (cloud->header.frame_id.empty())
-    return "a cloud has no frame_id: set the frame of the sensor in its driver";
-  const double age_s = (now - cloud->header.stamp).toSec();
-  if (age_s < -params_.future_max_s)
-    return "a cloud in frame '" + cloud->header.frame_id + "' is stamped " + seconds(-age_s) +
-           " in the future: synchronise the clocks, and check use_sim_time";
-  if (age_s > params_.age_max_s)
-    return "a cloud in frame '" + cloud->header.frame_id + "' is " + seconds(age_s) +
-           " old: synchronise the clocks, check use_sim_time, or raise cloud/age_max_s";
+  const std::string frame = frameName(cloud->header.frame_id);
+  if (frame.empty())
+    return "a cloud has no frame_id: set the frame of the sensor in its driver, and publish it on "
+           "tf";
+  const std::string stamp_problem = stampProblem(cloud->header.stamp, now, params_);
+  if (!stamp_problem.empty()) return "a cloud in frame '" + frame + "' " + stamp_problem;
   waiting_.push_back({cloud, now});
   if (waiting_.size() > kCapacity) waiting_.pop_front();
   return "";
 }
 
-std::vector<PendingClouds::Item> PendingClouds::take(const TransformLookup& lookup,
+std::vector<PendingClouds::Item> PendingClouds::take(const PlaceLookup& lookup,
                                                      const ::ros::Time& now) {
   std::vector<Item> taken;
   std::deque<Waiting> still_waiting;
   for (const Waiting& waiting : waiting_) {
-    const std_msgs::Header& header = waiting.cloud->header;
-    const auto T_world_sensor = lookup(header.frame_id, header.stamp);
-    if (T_world_sensor.value) {
-      taken.push_back({waiting.cloud, *T_world_sensor.value, ""});
+    const std::string frame = frameName(waiting.cloud->header.frame_id);
+    const auto place = lookup(frame, waiting.cloud->header.stamp);
+    if (place.value) {
+      taken.push_back({waiting.cloud, *place.value, ""});
     } else if ((now - waiting.since).toSec() >= params_.tf_wait_s) {
-      taken.push_back({waiting.cloud, Eigen::Isometry3d::Identity(),
-                       "no transform for a cloud in frame '" + header.frame_id + "' after " +
-                           seconds(params_.tf_wait_s) + " (" + T_world_sensor.problem +
-                           "): publish it on tf, or raise cloud/tf_wait_s"});
+      taken.push_back({waiting.cloud,
+                       {},
+                       "where a cloud in frame '" + frame + "' was taken from is not known after " +
+                           seconds(params_.tf_wait_s) + ": " + place.problem});
     } else {
       still_waiting.push_back(waiting);
     }

@@ -37,6 +37,8 @@ PlanWorker::~PlanWorker() {
 void PlanWorker::submit(mission::PlanJob job) {
   {
     const std::lock_guard lock(mutex_);
+    if (waiting_)  // what the planner was to be told is still true
+      job.reports.insert(job.reports.begin(), waiting_->reports.begin(), waiting_->reports.end());
     waiting_ = std::move(job);
   }
   wake_.notify_all();

@@ -2,11 +2,13 @@
 
 #include <tf2_eigen/tf2_eigen.h>
 
-#include <cmath>
+#include <cstdio>
 #include <utility>
 
 #include "spelunk/ros/convert.h"
+#include "spelunk/ros/frame_name.h"
 #include "spelunk/ros/frame_names.h"
+#include "spelunk/ros/stamp_check.h"
 
 namespace spelunk::bridge {
 namespace {
@@ -14,6 +16,9 @@ namespace {
 constexpr double kTimerPeriod_s = 0.02;
 constexpr std::uint32_t kCloudQueue = 5;
 constexpr std::uint32_t kOdometryQueue = 50;
+constexpr double kOvertaken_s = 0.5;  // no network holds one message back for longer
+constexpr int kLateInARow = 5;        // more than a network does
+constexpr double kBlur = 0.1;         // of a voxel: less does no harm
 
 }  // namespace
 
@@ -23,8 +28,14 @@ PlannerInputs::PlannerInputs(const ::ros::NodeHandle& node, const PlannerNodePar
       cloud_params_(cloud_params),
       core_(core),
       endurance_s_(core.with([](MissionCore& c) { return c.mission.robot().endurance_s; })),
+      resolution_m_(
+          core.with([](MissionCore& c) { return c.mission.map().params().resolution_m; })),
       pending_(cloud_params),
       sensors_(core.with([](MissionCore& c) { return c.mission.robot(); }), params.silence_s),
+      places_(core.with([](MissionCore& c) { return c.mission.robot(); }), params.world_frame,
+              resolution_m_, cloud_params.registered_sensor, tree(), params.frame_prefix),
+      self_returns_(core.with([](MissionCore& c) { return c.mission.robot(); }),
+                    core.with([](MissionCore& c) { return c.mission.map().params().range_min_m; })),
       node_(node),
       tf_buffer_(::ros::Duration(30.0)),
       tf_input_(tf_buffer_, [this](TfInput::SentByTwo what,
@@ -39,21 +50,42 @@ PlannerInputs::PlannerInputs(const ::ros::NodeHandle& node, const PlannerNodePar
   battery_subscriber_ = node_.subscribe("battery", 5, &PlannerInputs::onBattery, this);
   timer_ = node_.createTimer(::ros::Duration(kTimerPeriod_s),
                              [this](const ::ros::TimerEvent&) { onTimer(); });
-  core_.with([&](MissionCore& c) {
-    const double now_s = missionTime(c, ::ros::Time::now());
-    cloud_input_ =
-        c.watch.expect({node_.resolveName("pointcloud"), "pointcloud", params_.silence_s}, now_s);
-    odometry_input_ =
-        c.watch.expect({node_.resolveName("odometry"), "odometry", params_.silence_s}, now_s);
-  });
+  expectInputs();
   spinner_.start();
 }
 
 PlannerInputs::~PlannerInputs() { spinner_.stop(); }
 
+void PlannerInputs::expectInputs() {
+  const auto publishersOf = [](const ::ros::Subscriber& subscriber) {
+    return [subscriber] { return subscriber.getNumPublishers(); };
+  };
+  core_.with([&](MissionCore& c) {
+    const double now_s = missionTime(c, ::ros::Time::now());
+    odometry_input_ = c.watch.expect({"odometry", node_.resolveName("odometry"), "odometry",
+                                      params_.silence_s, publishersOf(odometry_subscriber_), 1},
+                                     now_s);
+    cloud_input_ = c.watch.expect({"point clouds", node_.resolveName("pointcloud"), "pointcloud",
+                                   params_.silence_s, publishersOf(cloud_subscriber_), 0},
+                                  now_s);
+  });
+}
+
 void PlannerInputs::report(const std::string& key, const std::string& text) {
   core_.with(
       [&](MissionCore& c) { c.watch.report(key, text, missionTime(c, ::ros::Time::now())); });
+}
+
+void PlannerInputs::reportCloud(const std::string& key, const std::string& text) {
+  core_.with([&](MissionCore& c) {
+    c.watch.report(cloud_input_, key, text, missionTime(c, ::ros::Time::now()));
+  });
+}
+
+void PlannerInputs::reportOdometry(const std::string& key, const std::string& text) {
+  core_.with([&](MissionCore& c) {
+    c.watch.report(odometry_input_, key, text, missionTime(c, ::ros::Time::now()));
+  });
 }
 
 void PlannerInputs::forgetAfterClockJump() {
@@ -63,7 +95,11 @@ void PlannerInputs::forgetAfterClockJump() {
   });
   if (jumps == jumps_seen_) return;
   jumps_seen_ = jumps;
-  tf_was_there_ = false;
+  first_used_.reset();
+  first_given_up_.reset();
+  newest_odometry_ = ::ros::Time();
+  places_.forget();
+  self_returns_.forget();
   pending_.clear();
   tf_buffer_.clear();
 }
@@ -76,13 +112,32 @@ FromMsg<Eigen::Isometry3d> PlannerInputs::findTransform(const std::string& frame
         tf2::transformToEigen(tf_buffer_.lookupTransform(params_.world_frame, frame, stamp));
     if (!T.matrix().allFinite()) return {std::nullopt, "the transform is not finite"};
     return {T, ""};
+  } catch (const tf2::ExtrapolationException& error) {
+    return {std::nullopt, "tf brings it into '" + params_.world_frame + "' at other times only (" +
+                              error.what() +
+                              "): let tf come in time and as often as clouds, stamped by the same "
+                              "clock, or raise cloud/tf_wait_s"};
   } catch (const tf2::TransformException& error) {
-    return {std::nullopt, error.what()};
+    return {std::nullopt, "tf cannot bring it into '" + params_.world_frame + "' (" + error.what() +
+                              "): publish the transforms between '" + params_.world_frame +
+                              "' and '" + frame +
+                              "' on tf, or set world_frame to a frame above it"};
   }
 }
 
 bool PlannerInputs::hasTransform(const std::string& frame) const {
   return findTransform(frame, ::ros::Time(0)).value.has_value();
+}
+
+FrameTree PlannerInputs::tree() const {
+  return {[this](const std::string& frame, const ::ros::Time& stamp) {
+            return findTransform(frame, stamp);
+          },
+          [this](const std::string& frame) -> std::optional<std::string> {
+            std::string parent;
+            if (!tf_buffer_._getParent(frame, ::ros::Time(0), parent)) return std::nullopt;
+            return parent;
+          }};
 }
 
 void PlannerInputs::onCloud(const sensor_msgs::PointCloud2::ConstPtr& cloud) {
@@ -92,7 +147,7 @@ void PlannerInputs::onCloud(const sensor_msgs::PointCloud2::ConstPtr& cloud) {
     if (now.isZero()) return;  // Simulated time has not begun.
     core_.with([&](MissionCore& c) { c.watch.heard(cloud_input_, missionTime(c, now)); });
     const std::string problem = pending_.push(cloud, now);
-    if (!problem.empty()) report("cloud stamp or frame", problem);
+    if (!problem.empty()) reportCloud("cloud stamp or frame", problem);
     enterReadyClouds(now);
   });
 }
@@ -131,47 +186,90 @@ void PlannerInputs::sayWhichSensorsAreMissing() {
 
 void PlannerInputs::enterReadyClouds(const ::ros::Time& now) {
   const auto lookup = [this](const std::string& frame, const ::ros::Time& stamp) {
-    return findTransform(frame, stamp);
+    return places_.find(frame, stamp);
   };
   for (const PendingClouds::Item& item : pending_.take(lookup, now)) {
     if (item.problem.empty()) {
-      tf_was_there_ = true;
       enter(item);
-    } else if (tf_was_there_ || !hasTransform(item.cloud->header.frame_id)) {
-      report("cloud transform", item.problem);
+    } else {
+      giveUp(item, now);
     }
   }
+  for (const std::string& text : places_.news()) log(LogLevel::kInfo, text);
+}
+
+/// The first clouds may be older than the first transform: they are dropped without a word.
+void PlannerInputs::giveUp(const PendingClouds::Item& item, const ::ros::Time& now) {
+  if (!first_given_up_) first_given_up_ = now;
+  const bool is_beginning = first_used_
+                                ? item.cloud->header.stamp < *first_used_
+                                : (now - *first_given_up_).toSec() < cloud_params_.tf_wait_s;
+  if (!is_beginning || !hasTransform(frameName(item.cloud->header.frame_id)))
+    reportCloud("cloud transform", item.problem);
 }
 
 void PlannerInputs::enter(const PendingClouds::Item& item) {
-  auto points = pointsFromMsg(*item.cloud);
+  const std::string frame = frameName(item.cloud->header.frame_id);
+  const CloudPlace& place = item.place;
+  auto points = pointsFromMsg(*item.cloud, place.T_sensor_cloud);
   if (!points.value)
-    return report("cloud content", "a cloud in frame '" + item.cloud->header.frame_id + "' " +
-                                       points.problem + ": check the sensor driver");
+    return reportCloud("cloud content", "a cloud in frame '" + frame + "' " + points.problem);
+  if (!first_used_) first_used_ = item.cloud->header.stamp;
+  sayIfCoarse(*item.cloud, place);
+  const std::string name =
+      place.sensor.empty() ? withoutPrefix(params_.frame_prefix, frame) : place.sensor;
   Scan scan;
-  scan.points = filtered(std::move(*points.value), cloud_params_);
-  const std::string frame = withoutPrefix(params_.frame_prefix, item.cloud->header.frame_id);
+  scan.sensor = place.sensor;
+  scan.points = self_returns_.without(name, filtered(std::move(*points.value), cloud_params_),
+                                      place.T_base_sensor,
+                                      place.T_world_sensor * place.T_base_sensor.inverse());
   core_.with([&](MissionCore& c) {
+    const double now_s = missionTime(c, ::ros::Time::now());
+    sensors_.heard(name, now_s);
+    c.watch.used(cloud_input_, now_s);
+    c.doubt = self_returns_.doubt();
+    c.flaw = self_returns_.finding();
+    if (!c.flaw.empty()) c.watch.report("self returns", c.flaw, now_s);
     scan.T_world_sensor =
-        frameAt(c, item.T_world_sensor.translation()).toLocal(item.T_world_sensor);
-    for (const SensorModel& sensor : c.mission.robot().sensor_models)
-      if (sensor.name == frame) scan.sensor = sensor.name;
-    sensors_.heard(frame, missionTime(c, ::ros::Time::now()));
+        frameAt(c, place.T_world_sensor.translation()).toLocal(place.T_world_sensor);
     scan.stamp_s = c.clock.toMission(item.cloud->header.stamp);
     const map::MapUpdate update = c.mission.onScan(scan);
     if (update.dropped_far > 0)
-      c.watch.report("map range", map::beyondKeysText(update, c.mission.map().params()),
-                     missionTime(c, ::ros::Time::now()));
+      c.watch.report("map range", map::beyondKeysText(update, c.mission.map().params()), now_s);
   });
 }
 
-std::string PlannerInputs::stampProblem(const ::ros::Time& stamp, const ::ros::Time& now) const {
-  const double age_s = (now - stamp).toSec();
-  if (age_s < -cloud_params_.future_max_s)
-    return "is stamped in the future: synchronise the clocks, and check use_sim_time";
-  if (age_s > cloud_params_.age_max_s)
-    return "is stamped long ago: synchronise the clocks, and check use_sim_time";
-  return "";
+/// Registered clouds far from the origin of their frame: numbers of 32 bits blur the walls there.
+void PlannerInputs::sayIfCoarse(const sensor_msgs::PointCloud2& cloud, const CloudPlace& place) {
+  const double error_m =
+      coordinateError(cloud, place.T_sensor_cloud.inverse().translation().cwiseAbs().maxCoeff());
+  if (error_m < kBlur * resolution_m_) return;
+  char text[40];
+  std::snprintf(text, sizeof(text), "%.3g m", error_m);
+  reportCloud("cloud precision",
+              "a cloud in frame '" + frameName(cloud.header.frame_id) + "' is only exact to " +
+                  text +
+                  ": it has 32-bit numbers far from the origin of its frame; remap 'pointcloud' to "
+                  "the cloud in the sensor's frame, or let x, y and z be sent as FLOAT64");
+}
+
+/// A message that was overtaken by newer ones tells nothing new.
+bool PlannerInputs::comesTooLate(const ::ros::Time& stamp) {
+  const double behind_s = (newest_odometry_ - stamp).toSec();
+  if (behind_s <= 0.0 || behind_s > kOvertaken_s) {
+    newest_odometry_ = stamp;
+    late_odometry_ = 0;
+    return false;
+  }
+  if (++late_odometry_ >= kLateInARow) {
+    char text[40];
+    std::snprintf(text, sizeof(text), "%.3f s", behind_s);
+    reportOdometry("odometry order",
+                   "odometry is stamped " + std::string(text) +
+                       " before odometry that came earlier, again and again: stop the second "
+                       "publisher on that topic, or let its driver stamp and send in order");
+  }
+  return true;
 }
 
 void PlannerInputs::onOdometry(const nav_msgs::Odometry::ConstPtr& odometry) {
@@ -180,24 +278,38 @@ void PlannerInputs::onOdometry(const nav_msgs::Odometry::ConstPtr& odometry) {
     const ::ros::Time now = ::ros::Time::now();
     if (now.isZero()) return;
     core_.with([&](MissionCore& c) { c.watch.heard(odometry_input_, missionTime(c, now)); });
-    const std::string stamp_problem = stampProblem(odometry->header.stamp, now);
-    if (!stamp_problem.empty()) return report("odometry stamp", "odometry " + stamp_problem);
-    const std::string& frame = odometry->header.frame_id;
+    const std::string stamp_problem = stampProblem(odometry->header.stamp, now, cloud_params_);
+    if (!stamp_problem.empty())
+      return reportOdometry("odometry stamp", "odometry " + stamp_problem);
+    if (comesTooLate(odometry->header.stamp)) return;
+    const std::string frame = frameName(odometry->header.frame_id);
+    if (frame.empty())
+      return reportOdometry("odometry frame",
+                            "odometry has no frame_id: set the frame of its poses in the state "
+                            "estimator (header.frame_id), and the base's in child_frame_id");
     const auto T_world_frame = findTransform(frame, ::ros::Time(0));  // The newest one there is.
     if (!T_world_frame.value)
-      return report("odometry frame", "odometry is in frame '" + frame +
-                                          "', which tf cannot bring into '" + params_.world_frame +
-                                          "' (" + T_world_frame.problem +
-                                          "): publish that transform");
+      return reportOdometry("odometry frame",
+                            "odometry is in frame '" + frame + "', " + T_world_frame.problem);
     auto state = fromMsg(*odometry, *T_world_frame.value);
     if (!state.value)
-      return report("odometry content",
-                    "odometry " + state.problem + ": check the state estimator");
-    core_.with([&](MissionCore& c) {
-      state.value->stamp_s = c.clock.toMission(odometry->header.stamp);
-      c.robot = frameAt(c, state.value->pose.position).toLocal(*state.value);
-      c.mission.onOdometry(*c.robot);
-    });
+      return reportOdometry("odometry content",
+                            "odometry " + state.problem + ": check the state estimator");
+    takeOver(*odometry, *state.value);
+  });
+}
+
+void PlannerInputs::takeOver(const nav_msgs::Odometry& odometry, const RobotState& state) {
+  const Eigen::Isometry3d T_world_base =
+      Eigen::Translation3d(state.pose.position) * state.orientation;
+  places_.onOdometry(frameName(odometry.header.frame_id), frameName(odometry.child_frame_id),
+                     odometry.header.stamp.toSec(), T_world_base);
+  core_.with([&](MissionCore& c) {
+    RobotState timed = frameAt(c, state.pose.position).toLocal(state);
+    timed.stamp_s = c.clock.toMission(odometry.header.stamp);
+    c.robot = timed;
+    c.watch.used(odometry_input_, missionTime(c, ::ros::Time::now()));
+    c.mission.onOdometry(timed);
   });
 }
 

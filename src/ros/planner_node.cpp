@@ -42,6 +42,9 @@ PlannerNode::PlannerNode(const ::ros::NodeHandle& node, const ::ros::NodeHandle&
   view_timer_ =
       view_node_.createWallTimer(::ros::WallDuration(params_.view_period_s),
                                  [this](const ::ros::WallTimerEvent&) { publishViews(); });
+  octomap_timer_ =
+      view_node_.createWallTimer(::ros::WallDuration(params_.octomap_period_s),
+                                 [this](const ::ros::WallTimerEvent&) { publishOctomap(); });
   core_.with([&](MissionCore& core) { core.wants_start = params_.auto_start; });
   view_spinner_.start();
 }
@@ -56,6 +59,7 @@ void PlannerNode::tick() {
       const double now_s = missionTime(core, ::ros::Time::now());
       core.mission.onRemaining(core.endurance.remaining(now_s));
       publishFrameIfNew(core);
+      noteInputs(core, now_s);
       if (const auto command = core.mission.tick(now_s)) publish(core, *command);
       startIfWanted(core, now_s);
       core.watch.checkSilence(now_s);
@@ -91,7 +95,7 @@ void PlannerNode::startIfWanted(MissionCore& core, double now_s) {
     return;
   }
   if (!waits_since_s_) waits_since_s_ = now_s;
-  if (now_s - *waits_since_s_ > params_.silence_s && start_refusals_.allows(answer.reason, now_s))
+  if (now_s - *waits_since_s_ > params_.silence_s && start_refusals_.allows("start", now_s))
     log(LogLevel::kWarn, "not started yet: " + answer.reason);
 }
 
@@ -119,9 +123,23 @@ void PlannerNode::publishStatusIfChanged(MissionCore& core, double now_s) {
 void PlannerNode::publishStatus() {
   core_.with([&](MissionCore& core) {
     const ::ros::Time now = ::ros::Time::now();
-    outputs_.publishStatus(core.frame.toCaller(core.mission.status()),
-                           core.watch.current(core.clock.toMission(now)), now);
+    checkClock(core, now);
+    const std::string problem = core.clock_problem.empty()
+                                    ? core.watch.current(core.clock.toMission(now))
+                                    : core.clock_problem;
+    outputs_.publishStatus(core.frame.toCaller(core.mission.status()), problem, now);
   });
+}
+
+/// Here, where real time counts: without a ROS clock nothing else runs.
+void PlannerNode::checkClock(MissionCore& core, const ::ros::Time& now) {
+  const auto source =
+      ::ros::Time::isSystemTime() ? ClockWatch::Source::kSystem : ClockWatch::Source::kSimulated;
+  const double real_s = ::ros::SteadyTime::now().toSec();
+  core.clock_problem = clock_watch_.check(now, source, real_s);
+  if (core.clock_problem.empty()) return;
+  noteInputs(core, core.clock.toMission(now));
+  if (clock_throttle_.allows("clock", real_s)) log(LogLevel::kWarn, core.clock_problem);
 }
 
 MissionView PlannerNode::viewOf(MissionCore& core) const {
@@ -145,12 +163,17 @@ MissionView PlannerNode::viewOf(MissionCore& core) const {
   return view;
 }
 
+void PlannerNode::publishOctomap() {
+  if (!outputs_.wantsOctomap()) return;
+  holdingOnError(core_, "the octomap", [&] {
+    core_.with([&](MissionCore& core) {
+      outputs_.publishOctomap(core.mission.map(), core.frame, ::ros::Time::now());
+    });
+  });
+}
+
 void PlannerNode::publishViews() {
   holdingOnError(core_, "drawing", [&] {
-    if (outputs_.wantsOctomap())
-      core_.with([&](MissionCore& core) {
-        outputs_.publishOctomap(core.mission.map(), core.frame, ::ros::Time::now());
-      });
     if (!outputs_.wantsMarkers() && !outputs_.wantsMapCloud() && !outputs_.wantsTerrain()) return;
     MissionView view = core_.with([&](MissionCore& core) { return viewOf(core); });
     view.graph = shown_graph_.with([](const auto& shown) { return shown; });

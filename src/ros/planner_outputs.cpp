@@ -1,12 +1,10 @@
 #include "spelunk/ros/planner_outputs.h"
 
-#ifdef SPELUNK_HAVE_OCTOMAP_MSGS
-#include <octomap_msgs/Octomap.h>
-#include <octomap_msgs/conversions.h>
-#endif
+#include <octomap/OcTree.h>
 #include <visualization_msgs/MarkerArray.h>
 
 #include "spelunk/ros/convert.h"
+#include "spelunk/ros/convert_octomap.h"
 #include "spelunk/ros/convert_terrain.h"
 #include "spelunk/visualization/draw.h"
 
@@ -52,11 +50,9 @@ PlannerOutputs::PlannerOutputs(::ros::NodeHandle& node, const std::string& world
       markers_(node.advertise<visualization_msgs::MarkerArray>("markers", 1)),
       map_cloud_(node.advertise<sensor_msgs::PointCloud2>("map_cloud", 1)),
       elevation_(node.advertise<sensor_msgs::PointCloud2>("elevation", 1)),
-      traversability_(node.advertise<nav_msgs::OccupancyGrid>("traversability", 1)) {
-#ifdef SPELUNK_HAVE_OCTOMAP_MSGS
-  octomap_ = node.advertise<octomap_msgs::Octomap>("octomap", 1);
-#endif
-}
+      traversability_(node.advertise<nav_msgs::OccupancyGrid>("traversability", 1)),
+      octomap_(node.advertise<octomap_msgs::Octomap>("octomap", 1, /*latch=*/true)),
+      octomap_full_(node.advertise<octomap_msgs::Octomap>("octomap_full", 1, /*latch=*/true)) {}
 
 void PlannerOutputs::publishFrame(const LocalFrame& frame, const ::ros::Time& now) {
   if (frame.isCallers()) return;
@@ -112,21 +108,13 @@ void PlannerOutputs::publishTerrain(const MissionView& view, const ::ros::Time& 
   traversability_.publish(grid);
 }
 
-#ifdef SPELUNK_HAVE_OCTOMAP_MSGS
-bool PlannerOutputs::wantsOctomap() const { return octomap_.getNumSubscribers() > 0; }
-
 void PlannerOutputs::publishOctomap(map::OccupancyMap& map, const LocalFrame& frame,
                                     const ::ros::Time& now) {
-  octomap_msgs::Octomap message;
-  message.header.frame_id = idOf(frame);
-  message.header.stamp = now;
-  if (octomap_msgs::binaryMapToMsg(map.octree(), message)) octomap_.publish(message);
+  const octomap::OcTree& tree = map.octree();
+  if (tree.size() == 0) return;  // Readers would take it for a world that is all occupied.
+  const std::string& id = idOf(frame);
+  if (octomap_.getNumSubscribers() > 0) octomap_.publish(binaryMsg(tree, id, now));
+  if (octomap_full_.getNumSubscribers() > 0) octomap_full_.publish(fullMsg(tree, id, now));
 }
-#else
-bool PlannerOutputs::wantsOctomap() const { return false; }
-
-void PlannerOutputs::publishOctomap(map::OccupancyMap& /*map*/, const LocalFrame& /*frame*/,
-                                    const ::ros::Time& /*now*/) {}
-#endif
 
 }  // namespace spelunk::bridge

@@ -85,10 +85,12 @@ bool PlannerServices::start(Trigger::Request& /*request*/, Trigger::Response& re
   return answering(response, &Trigger::Response::message, [&] {
     answer(asked(core_,
                  [](MissionCore& core) {
+                   const double now_s = missionTime(core, ::ros::Time::now());
+                   noteInputs(core, now_s);
                    const mission::Answer given = core.mission.start();
                    if (given.accepted) {
                      core.wants_start = false;
-                     core.endurance.start(missionTime(core, ::ros::Time::now()));
+                     core.endurance.start(now_s);
                    }
                    return given;
                  }),
@@ -148,33 +150,28 @@ bool PlannerServices::plan(Plan::Request& /*request*/, Plan::Response& response)
 
 bool PlannerServices::goTo(GoTo::Request& request, GoTo::Response& response) {
   return answering(response, &GoTo::Response::reason, [&] {
-    const LocalFrame frame = core_.with([](const MissionCore& core) { return core.frame; });
-    const Eigen::Vector3d target =
-        frame.toLocal(Eigen::Vector3d(request.target.x, request.target.y, request.target.z));
-    const mission::Answer may =
-        asked(core_, [&](MissionCore& core) { return core.mission.mayGoTo(target); });
-    if (!may.accepted) {
-      response.reason = may.reason;
-      return;
-    }
-    auto query = core_.with([&](MissionCore& core) { return core.mission.goToQuery(target); });
-    query->rng = nextRng("go_to");
-    query->time_limit_s = navigation_.planning_time_s;
-    const auto found = navigation::Navigator(navigation_).plan(*query);
-    const mission::Answer given = asked(
-        core_, [&](MissionCore& core) { return core.mission.goTo(navigation_, *query, found); });
-    response.success = given.accepted;
-    response.reason = given.reason;
-    const Eigen::Vector3d lift = query->goal.position - target;  // of the box above the base
-    if (found.nearest_reachable) {
-      const Eigen::Vector3d nearest = *found.nearest_reachable - lift;
-      response.reason +=
-          "; the nearest point that can be reached is " + toText(frame.toCaller(nearest));
-    }
-    if (!given.accepted) return;
-    Path base_path = found.path;
-    for (Pose& pose : base_path) pose.position -= lift;
-    response.path = bridge::toMsg(frame.toCaller(base_path), world_frame_, ::ros::Time::now());
+    const Eigen::Vector3d target(request.target.x, request.target.y, request.target.z);
+    auto job = core_.with([&](MissionCore& core) -> std::optional<mission::PlanJob> {
+      const mission::Answer given =
+          core.mission.goTo(core.frame.toLocal(target), navigation_, navigation_.planning_time_s);
+      response.reason = core.frame.toCaller(given.reason);
+      return given.accepted ? core.mission.takeJob() : std::nullopt;
+    });
+    if (!job) return;
+    const auto outcome = planner_.with([&](auto& planner) { return mission::run(*job, *planner); });
+    core_.with([&](MissionCore& core) {
+      core.mission.take(outcome, missionTime(core, ::ros::Time::now()));
+      const mission::GoToStatus status = core.frame.toCaller(core.mission.status().go_to);
+      response.success = status.outcome == mission::GoToOutcome::kUnderway;
+      response.reason = response.success ? "flying to the point that was asked for" : status.reason;
+      if (status.nearest_reachable)
+        response.reason +=
+            "; the nearest point that can be reached is " + toText(*status.nearest_reachable);
+      const auto plan = core.mission.goToPlan();
+      if (response.success && plan)
+        response.path =
+            bridge::toMsg(core.frame.toCaller(plan->path), world_frame_, ::ros::Time::now());
+    });
   });
 }
 

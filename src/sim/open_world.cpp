@@ -10,6 +10,7 @@
 #include <sstream>
 
 #include "spelunk/common/contract.h"
+#include "spelunk/common/file_lookup.h"
 #include "spelunk/sim/world_generator.h"
 #include "spelunk/sim/world_mesh.h"
 
@@ -132,10 +133,6 @@ WorldMesh heldIn(const LocalFrame& frame, WorldMesh mesh) {
   return mesh;
 }
 
-bool looksLikePath(const std::string& text) {
-  return text.find('/') != std::string::npos || fs::path(text).has_extension();
-}
-
 }  // namespace
 
 std::string defaultCacheDir() {
@@ -153,14 +150,19 @@ std::string defaultCacheDir() {
 }
 
 WorldMesh openWorld(const std::string& name_or_path, const std::string& worlds_dir,
-                    const std::string& cache_dir, const Surroundings& around) {
+                    const std::string& cache_dir, const MeshFrame& told,
+                    const Surroundings& around) {
   std::error_code failure;
   const fs::path description = fs::path(worlds_dir) / (name_or_path + ".yaml");
-  if (looksLikePath(name_or_path)) return loadWorldMesh(name_or_path, around);
+  if (looksLikePath(name_or_path))
+    return loadWorldMesh(existingFile("mesh", name_or_path, {""}), told, around);
   if (!fs::is_regular_file(description, failure))
     throw OutsideError("world '" + name_or_path +
                        "' is not known; give the path of a mesh or one of: " +
                        knownNames(worlds_dir) + " (from " + worlds_dir + ")");
+  if (!told.isSilent())
+    throw OutsideError("world '" + name_or_path +
+                       "' is generated in metres with z up: scale and up are for mesh files only");
   const fs::path cached = cachePath(description, cache_dir);
   std::optional<WorldMesh> mesh = readCache(cached);
   if (!mesh) {

@@ -1,6 +1,8 @@
 #include "spelunk/sim/range_sensor.h"
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace spelunk::sim {
 namespace {
@@ -23,14 +25,36 @@ float normalFrom(std::uint64_t bits) {
 
 float uniformFrom(std::uint64_t bits) { return static_cast<float>(bits >> 40) * 0x1.0p-24F; }
 
+/// How far each ray (sensor frame) gets to the hoop; infinite where it passes above or below it.
+std::vector<float> rangesToHoop(const std::vector<Eigen::Vector3f>& directions,
+                                const Eigen::Isometry3d& T_base_sensor, double radius_m) {
+  constexpr double kHalfHeight_m = 0.05;
+  const Eigen::Vector2d start = T_base_sensor.translation().head<2>();
+  std::vector<float> ranges;
+  ranges.reserve(directions.size());
+  for (const Eigen::Vector3f& direction : directions) {
+    const Eigen::Vector3d ray = T_base_sensor.linear() * direction.cast<double>();
+    const double a = ray.head<2>().squaredNorm();
+    const double b = start.dot(ray.head<2>());
+    const double root = b * b - a * (start.squaredNorm() - radius_m * radius_m);
+    const double range = a > 0.0 && root >= 0.0 ? (std::sqrt(root) - b) / a : -1.0;
+    const bool meets = range > 0.0 && std::abs(range * ray.z()) <= kHalfHeight_m;
+    ranges.push_back(meets ? static_cast<float>(range) : std::numeric_limits<float>::infinity());
+  }
+  return ranges;
+}
+
 }  // namespace
 
-RangeSensor::RangeSensor(const SensorModel& model, double dust_returns, const Rng& rng)
+RangeSensor::RangeSensor(const SensorModel& model, double dust_returns, const Rng& rng,
+                         double hoop_radius_m)
     : model_(model),
       dust_returns_(dust_returns),
       key_(rng.fork(model.name).next()),
       T_base_sensor_(T_base_sensor(model)),
-      directions_(std::make_shared<const std::vector<Eigen::Vector3f>>(rayDirections(model))) {}
+      directions_(std::make_shared<const std::vector<Eigen::Vector3f>>(rayDirections(model))) {
+  if (hoop_radius_m > 0.0) hoop_ranges_ = rangesToHoop(*directions_, T_base_sensor_, hoop_radius_m);
+}
 
 double RangeSensor::nextScanTime() const {
   return static_cast<double>(scans_taken_) / model_.rate_hz;
@@ -52,6 +76,8 @@ std::optional<SimulatedScan> RangeSensor::scan(const MeshScene& scene,
     world_directions_[k].noalias() = turn * (*directions_)[k];
   scene.castFan(result.T_world_sensor_true.translation().cast<float>(), world_directions_,
                 result.range_max_m, result.true_ranges);
+  for (std::size_t k = 0; k < hoop_ranges_.size(); ++k)
+    result.true_ranges[k] = std::min(result.true_ranges[k], hoop_ranges_[k]);
   result.scan.stamp_s = stamp_s;
   result.scan.sensor = model_.name;
   result.scan.T_world_sensor = T_world_base_odometry * T_base_sensor_;

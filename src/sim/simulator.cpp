@@ -94,12 +94,34 @@ std::vector<std::string> SimParams::problems() const {
   return found;
 }
 
+std::vector<std::string> SimParams::problemsFor(const RobotModel& robot) const {
+  constexpr double kSameHeight_m = 0.05;  // legs give so much
+  std::vector<std::string> found;
+  const bool is_legged = kindOf(robot) == RobotKind::kLegged;
+  const Eigen::Vector3d& body = is_legged ? walker.trunk_m : body_m;
+  if ((body.array() > robot.box_m.array()).any())
+    found.push_back(std::string(is_legged ? "walker.trunk_m" : "sim.body_m") + " = " +
+                    toText(body) + " does not fit into robot.box_m = " + toText(robot.box_m) +
+                    ", which keeps the robot clear of obstacles: enlarge the box");
+  if (is_legged && std::fabs(walker.stand_height_m - robot.ride_height_m) > kSameHeight_m)
+    found.push_back("walker.stand_height_m = " + toText(walker.stand_height_m) +
+                    " and robot.ride_height_m = " + toText(robot.ride_height_m) +
+                    " are the same height of the base above the ground: set both alike");
+  return found;
+}
+
 SimParams readSimParams(ParamTree& tree) {
   SimParams params;
   tree.read("sim", params);
   tree.read("walker", params.walker);
   for (const std::string& problem : params.problems()) tree.addProblem(problem);
   for (const std::string& problem : params.walker.problems()) tree.addProblem(problem);
+  return params;
+}
+
+SimParams readSimParams(ParamTree& tree, const RobotModel& robot) {
+  const SimParams params = readSimParams(tree);
+  for (const std::string& problem : params.problemsFor(robot)) tree.addProblem(problem);
   return params;
 }
 
@@ -116,7 +138,8 @@ struct Simulator::Impl {
                  Rng(seed).fork("sim/odometry")),
         reference(start, robot.braking_deceleration_mps2) {
     for (const SensorModel& model : robot.sensor_models)
-      sensors.emplace_back(model, params.dust_returns, Rng(seed).fork("sim/sensor"));
+      sensors.emplace_back(model, params.dust_returns, Rng(seed).fork("sim/sensor"),
+                           params.self_returns_m);
   }
 
   std::unique_ptr<Vehicle> makeVehicle(const RobotModel& robot, const WorldMesh& mesh,

@@ -1,24 +1,32 @@
 #include "spelunk/sim/start_check.h"
 
+#include <cmath>
 #include <sstream>
 
 #include "spelunk/common/contract.h"
+#include "spelunk/sim/mesh_size.h"
 
 namespace spelunk::sim {
 
-std::string textOf(const Eigen::Vector3d& position, const WorldMesh& mesh) {
-  const Eigen::Vector3d there = mesh.frame.toCaller(position);
+std::string textOf(const Eigen::Vector3d& position) {
   std::ostringstream text;
   text.precision(10);  // millimetres of a UTM northing
-  text << "(" << there.x() << ", " << there.y() << ", " << there.z() << ")";
-  return text.str();
+  for (int k = 0; k < 3; ++k)
+    text << (k == 0 ? "(" : ", ") << std::round(1000.0 * position(k)) / 1000.0 + 0.0;
+  return text.str() + ")";
+}
+
+std::string textOf(const Eigen::Vector3d& position, const WorldMesh& mesh) {
+  return textOf(mesh.frame.toCaller(position));
 }
 
 void requireInside(const WorldMesh& mesh, const Pose& start) {
   if (!isFinite(start)) throw OutsideError("start pose is not finite; give numbers x,y,z,yaw");
   if (!mesh.bounds().contains(start.position))
     throw OutsideError("start " + textOf(start.position, mesh) + " lies outside the world '" +
-                       mesh.name + "'; give a start inside the mesh (--start x,y,z,yaw)");
+                       mesh.name + "', which is " + boundsText(mesh.frame.toCaller(mesh.bounds())) +
+                       sizeAdvice(mesh.bounds()) +
+                       "; give a start inside the mesh (--start x,y,z,yaw)");
 }
 
 void requireFreeBody(const MeshScene& scene, const WorldMesh& mesh, const Eigen::Vector3d& position,

@@ -9,17 +9,17 @@
 #include <assimp/Importer.hpp>
 #include <cmath>
 #include <cstdio>
-#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <limits>
-#include <nlohmann/json.hpp>
 #include <optional>
-#include <unordered_map>
 
 #include "exact_file.h"
+#include "mesh_builder.h"
+#include "sidecar.h"
 #include "spelunk/common/contract.h"
 #include "spelunk/common/log.h"
+#include "spelunk/sim/mesh_size.h"
 
 namespace spelunk::sim {
 namespace {
@@ -28,48 +28,23 @@ namespace fs = std::filesystem;
 
 constexpr double kCoarse_m = 2e-3;  ///< Steps that cost more than a millimetre are said.
 
-/// Collects triangles and gives vertices of equal coordinates one index, in order of appearance.
-class Welder {
- public:
-  explicit Welder(WorldMesh& mesh) : mesh_(mesh) {}
+/// p_mesh = linear * p_read + offset: from what the importer read into the frame of the mesh.
+struct FromRead {
+  Eigen::Matrix3d linear;
+  Eigen::Vector3d offset;
 
-  void addTriangle(const std::array<Eigen::Vector3f, 3>& corners) {
-    const Eigen::Vector3i triangle(indexOf(corners[0]), indexOf(corners[1]), indexOf(corners[2]));
-    if (triangle[0] == triangle[1] || triangle[1] == triangle[2] || triangle[2] == triangle[0])
-      return;  // no area: nothing to hit
-    mesh_.triangles.push_back(triangle);
+  [[nodiscard]] Eigen::Vector3d operator()(const aiVector3D& v) const {
+    return linear * Eigen::Vector3d(v.x, v.y, v.z) + offset;
   }
-
- private:
-  using Bits = std::array<std::uint32_t, 3>;
-  struct BitsHash {
-    std::size_t operator()(const Bits& bits) const {
-      std::uint64_t hash = 0xCBF29CE484222325ULL;
-      for (const std::uint32_t part : bits) hash = (hash ^ part) * 0x9E3779B97F4A7C15ULL;
-      return static_cast<std::size_t>(hash ^ (hash >> 32));
-    }
-  };
-
-  int indexOf(const Eigen::Vector3f& vertex) {
-    const Eigen::Vector3f unsigned_zero = vertex + Eigen::Vector3f::Zero();  // -0 becomes +0
-    Bits bits{};
-    std::memcpy(bits.data(), unsigned_zero.data(), sizeof(bits));
-    const auto [entry, is_new] = index_.try_emplace(bits, static_cast<int>(mesh_.vertices.size()));
-    if (is_new) mesh_.vertices.push_back(unsigned_zero);
-    return entry->second;
-  }
-
-  WorldMesh& mesh_;
-  std::unordered_map<Bits, int, BitsHash> index_;
 };
 
 aiVector3D corner(const aiMesh& part, const aiFace& face, unsigned k, const aiMatrix4x4& T) {
   return T * part.mVertices[face.mIndices[k]];
 }
 
-/// Adds the triangles of a node and of everything below it, all vertices moved by `by`.
+/// Adds the triangles of a node and of everything below it.
 void addNode(const aiScene& scene, const aiNode& node, const aiMatrix4x4& T_world_parent,
-             const Eigen::Vector3d& by, Welder& welder) {
+             const FromRead& from_read, MeshBuilder& builder) {
   const aiMatrix4x4 T_world_node = T_world_parent * node.mTransformation;
   for (unsigned m = 0; m < node.mNumMeshes; ++m) {
     const aiMesh& part = *scene.mMeshes[node.mMeshes[m]];
@@ -78,14 +53,13 @@ void addNode(const aiScene& scene, const aiNode& node, const aiMatrix4x4& T_worl
       if (face.mNumIndices != 3) continue;  // points and lines
       std::array<Eigen::Vector3f, 3> corners;
       for (unsigned k = 0; k < 3; ++k) {
-        const aiVector3D v = corner(part, face, k, T_world_node);
-        corners[k] = (Eigen::Vector3d(v.x, v.y, v.z) + by).cast<float>();
+        corners[k] = from_read(corner(part, face, k, T_world_node)).cast<float>();
       }
-      welder.addTriangle(corners);
+      builder.addTriangle(corners);
     }
   }
   for (unsigned c = 0; c < node.mNumChildren; ++c)
-    addNode(scene, *node.mChildren[c], T_world_node, by, welder);
+    addNode(scene, *node.mChildren[c], T_world_node, from_read, builder);
 }
 
 /// Assimp turns Collada files to y up, whatever their up-axis, and scales them to metres. Other
@@ -98,34 +72,14 @@ aiMatrix4x4 fromImporterFrame(const fs::path& path) {
   return {1, 0, 0, 0, 0, 0, -1, 0, 0, 1, 0, 0, 0, 0, 0, 1};
 }
 
-std::optional<Pose> readStart(const fs::path& mesh_path) {
-  fs::path sidecar = mesh_path;
-  sidecar.replace_extension(".json");
-  std::ifstream stream(sidecar);
-  if (!stream) return std::nullopt;
-  const std::string remedy =
-      sidecar.string() + ": must hold \"start\": [x, y, z, yaw] in metres and radians";
-  const auto json = nlohmann::json::parse(stream, nullptr, false);
-  if (json.is_discarded() || !json.is_object())
-    throw OutsideError(remedy + " (it is not a JSON object)");
-  if (!json.contains("start")) return std::nullopt;
-  const auto& start = json["start"];
-  const auto is_number = [](const nlohmann::json& entry) { return entry.is_number(); };
-  if (!start.is_array() || start.size() != 4 || !std::all_of(start.begin(), start.end(), is_number))
-    throw OutsideError(remedy);
-  return Pose{{start[0].get<double>(), start[1].get<double>(), start[2].get<double>()},
-              start[3].get<double>()};
-}
-
 /// The first vertex of a node or of what lies below it.
-std::optional<Eigen::Vector3d> firstVertexOf(const aiScene& scene, const aiNode& node,
-                                             const aiMatrix4x4& T_world_parent) {
+std::optional<aiVector3D> firstVertexOf(const aiScene& scene, const aiNode& node,
+                                        const aiMatrix4x4& T_world_parent) {
   const aiMatrix4x4 T_world_node = T_world_parent * node.mTransformation;
   for (unsigned m = 0; m < node.mNumMeshes; ++m) {
     const aiMesh& part = *scene.mMeshes[node.mMeshes[m]];
     if (part.mNumVertices == 0) continue;
-    const aiVector3D v = T_world_node * part.mVertices[0];
-    return Eigen::Vector3d(v.x, v.y, v.z);
+    return T_world_node * part.mVertices[0];
   }
   for (unsigned c = 0; c < node.mNumChildren; ++c)
     if (const auto vertex = firstVertexOf(scene, *node.mChildren[c], T_world_node)) return vertex;
@@ -140,7 +94,7 @@ const aiScene& sceneOf(const aiScene* scene, const Assimp::Importer& importer,
   return *scene;
 }
 
-/// The frame for a place of the mesh file.
+/// The frame for a place in the world.
 LocalFrame frameAround(const Eigen::Vector3d& place, const Surroundings& around) {
   if (!place.allFinite()) return {};  // said when the whole mesh is looked at
   return LocalFrame::around(place, around.reach_m, around.range_m);
@@ -156,7 +110,7 @@ void sayIfCoarse(const std::string& path, double step_m, const std::string& why)
 }
 
 /// Half of the distance between neighbouring 32-bit numbers at the farthest coordinate is lost.
-void sayIfCoarse(const std::string& path, const aiScene& scene) {
+void sayIfCoarse(const std::string& path, const aiScene& scene, double scale) {
   float farthest = 0.0F;
   for (unsigned m = 0; m < scene.mNumMeshes; ++m)
     for (unsigned v = 0; v < scene.mMeshes[m]->mNumVertices; ++v) {
@@ -165,45 +119,72 @@ void sayIfCoarse(const std::string& path, const aiScene& scene) {
         if (std::isfinite(value)) farthest = std::max(farthest, std::fabs(value));
     }
   const float next = std::nextafter(farthest, std::numeric_limits<float>::infinity());
-  sayIfCoarse(path, next - farthest,
-              "32-bit numbers at a coordinate of " + std::to_string(std::lround(farthest)) + " m");
+  sayIfCoarse(
+      path, scale * (next - farthest),
+      "32-bit numbers at a coordinate of " + std::to_string(std::lround(scale * farthest)) + " m");
+}
+
+/// Reads a file in which every vertex is moved by whole units of the file near to the origin of
+/// `frame`: decimal text keeps its digits, and what is left of the way is gone in double precision.
+void addExact(const ExactFile& exact, const std::string& path, const Eigen::Matrix3d& T_world_file,
+              const LocalFrame& frame, MeshBuilder& builder) {
+  const Eigen::Vector3d by = (T_world_file.inverse() * -frame.origin()).array().round();
+  const std::string bytes = exact.movedBy(by);
+  const std::string kind = fs::path(path).extension().string().substr(1);
+  Assimp::Importer importer;
+  const aiScene& scene = sceneOf(
+      importer.ReadFileFromMemory(bytes.data(), bytes.size(), aiProcess_Triangulate, kind.c_str()),
+      importer, path);
+  addNode(scene, *scene.mRootNode, {}, {T_world_file, -(T_world_file * by) - frame.origin()},
+          builder);
 }
 
 /// Adds a file's triangles in a frame near the start. Decimal text and 64-bit numbers are moved
 /// there before they become 32-bit numbers, others when it is too late.
-void addFile(const std::string& path, const Surroundings& around, WorldMesh& mesh, Welder& welder) {
-  const aiMatrix4x4 T_world_file = fromImporterFrame(path);
-  Assimp::Importer importer;
+void addFile(const std::string& path, const Eigen::Matrix3d& T_world_file,
+             const Surroundings& around, WorldMesh& mesh, MeshBuilder& builder) {
+  const double scale = std::cbrt(std::fabs(T_world_file.determinant()));
   const auto place = around.start ? around.start
                      : mesh.start ? std::optional<Eigen::Vector3d>(mesh.start->position)
                                   : std::nullopt;
   const bool is_near = place && frameAround(*place, around).isCallers();
   const auto exact = is_near ? std::nullopt : ExactFile::read(path);
   if (exact) {
-    mesh.frame = frameAround(place.value_or(exact->firstVertex()), around);
-    sayIfCoarse(path, exact->coarsestStep(), "so few digits are written");
+    mesh.frame = frameAround(place.value_or(T_world_file * exact->firstVertex()), around);
+    sayIfCoarse(path, scale * exact->coarsestStep(), "so few digits are written");
   }
-  if (exact && !mesh.frame.isCallers()) {
-    const std::string bytes = exact->movedBy(-mesh.frame.origin());
-    const std::string kind = fs::path(path).extension().string().substr(1);
-    const aiScene& scene = sceneOf(importer.ReadFileFromMemory(bytes.data(), bytes.size(),
-                                                               aiProcess_Triangulate, kind.c_str()),
-                                   importer, path);
-    return addNode(scene, *scene.mRootNode, T_world_file, Eigen::Vector3d::Zero(), welder);
-  }
+  if (exact && !mesh.frame.isCallers())
+    return addExact(*exact, path, T_world_file, mesh.frame, builder);
+  Assimp::Importer importer;
   const aiScene& scene = sceneOf(importer.ReadFile(path, aiProcess_Triangulate), importer, path);
-  if (!exact) sayIfCoarse(path, scene);
-  const auto vertex = firstVertexOf(scene, *scene.mRootNode, T_world_file);
-  if (place || vertex) mesh.frame = frameAround(place ? *place : *vertex, around);
-  addNode(scene, *scene.mRootNode, T_world_file, -mesh.frame.origin(), welder);
+  if (!exact) sayIfCoarse(path, scene, scale);
+  const aiMatrix4x4 T_read_file = fromImporterFrame(path);
+  const FromRead in_world{T_world_file, Eigen::Vector3d::Zero()};
+  const auto vertex = firstVertexOf(scene, *scene.mRootNode, T_read_file);
+  if (place || vertex) mesh.frame = frameAround(place ? *place : in_world(*vertex), around);
+  addNode(scene, *scene.mRootNode, T_read_file, {T_world_file, -mesh.frame.origin()}, builder);
 }
 
-void requireUsable(const WorldMesh& mesh, const std::string& path) {
+void requireUsable(const MeshBuilder& builder, const WorldMesh& mesh, const std::string& path) {
+  if (builder.broken() > 0)
+    throw OutsideError(path + ": " + std::to_string(builder.broken()) +
+                       " triangles have a vertex that is not finite; repair or re-export the mesh");
   if (mesh.triangles.empty())
-    throw OutsideError(path + ": holds no triangles; export the world's surface as triangles");
-  for (const Eigen::Vector3f& vertex : mesh.vertices)
-    if (!vertex.allFinite())
-      throw OutsideError(path + ": has a vertex that is not finite; repair or re-export the mesh");
+    throw OutsideError(path + ": holds no triangles" + (builder.flat() > 0 ? " with an area" : "") +
+                       "; export the world's surface as triangles");
+}
+
+/// What was read and what was left out or looks odd.
+void describe(const MeshBuilder& builder, const WorldMesh& mesh, const std::string& path) {
+  const AxisAlignedBox bounds = mesh.frame.toCaller(mesh.bounds());
+  log(LogLevel::kInfo,
+      path + ": " + std::to_string(mesh.triangles.size()) + " triangles, " + boundsText(bounds));
+  if (builder.flat() > 0 || builder.repeated() > 0)
+    log(LogLevel::kWarn, path + ": left out " + std::to_string(builder.flat()) +
+                             " triangles without area and " + std::to_string(builder.repeated()) +
+                             " that are there twice");
+  if (const std::string advice = sizeAdvice(bounds); !advice.empty())
+    log(LogLevel::kWarn, path + ": " + sizeText(bounds) + advice);
 }
 
 }  // namespace
@@ -219,18 +200,22 @@ AxisAlignedBox WorldMesh::bounds() const {
   return {low.cast<double>(), high.cast<double>()};
 }
 
-WorldMesh loadWorldMesh(const std::string& path, const Surroundings& around) {
+WorldMesh loadWorldMesh(const std::string& path, const MeshFrame& told,
+                        const Surroundings& around) {
   std::error_code failure;
   if (!fs::is_regular_file(path, failure))
     throw OutsideError(path + ": no such mesh file; give a .dae, .stl, .obj or .ply file");
   if (fs::file_size(path, failure) == 0) throw OutsideError(path + ": the mesh file is empty");
   WorldMesh mesh;
   mesh.name = fs::path(path).stem().string();
-  mesh.start = readStart(path);
-  Welder welder(mesh);
-  addFile(path, around, mesh, welder);
-  requireUsable(mesh, path);
+  const Sidecar sidecar = readSidecar(path);
+  mesh.start = sidecar.start;
+  MeshBuilder builder(mesh);
+  addFile(path, told.elseOf(sidecar.frame).T_world_file(), around, mesh, builder);
+  requireUsable(builder, mesh, path);
+  describe(builder, mesh, path);
   if (mesh.start) mesh.start = mesh.frame.written(*mesh.start);
+  if (sidecar.bounds) mesh.exploration_bounds = mesh.frame.toLocal(*sidecar.bounds);
   return mesh;
 }
 

@@ -1,4 +1,5 @@
 """Descriptions of campaigns: what they mean and what is refused."""
+import pathlib
 import unittest
 
 import support
@@ -53,6 +54,21 @@ class Description(unittest.TestCase):
         self.assertEqual([(mission.world, mission.planner, mission.wall_limit_s)
                           for mission in campaign.missions],
                          [("cave", "informed", 7), ("room", "gbplanner", 140)])
+
+    def test_robots_planners_and_meshes_may_be_files_seen_from_the_description(self):
+        group = {**GROUP, "robots": ["aerial", "own/mule.yaml"], "planners": ["/p/patient.yaml"]}
+        campaign, problems = description.parse({"groups": [group], "meshes": {"room": "mine.stl"}},
+                                               folder=pathlib.Path("/home/me"))
+        self.assertEqual(problems, [])
+        self.assertEqual([mission.name for mission in campaign.missions],
+                         ["room__aerial__patient__default__40__001",
+                          "room__mule__patient__default__40__001"])
+        arguments = " ".join(campaign.missions[1].arguments(campaign.meshes))
+        self.assertIn("--world /home/me/mine.stl --robot /home/me/own/mule.yaml "
+                      "--planner /p/patient.yaml", arguments)
+        found = checks.robot_problems(campaign, support.ROOT)
+        self.assertEqual(found, ["planner file /p/patient.yaml is not there",
+                                 "robot file /home/me/own/mule.yaml is not there"])
 
     def test_all_problems_come_in_one_message(self):
         path = "bad.yaml"

@@ -37,6 +37,106 @@ TEST(SensorModel, PositivePitchLooksDown) {
   EXPECT_LT((T_base_sensor(camera).linear() * Eigen::Vector3d::UnitX()).z(), -0.4);
 }
 
+double elevation(const Eigen::Vector3f& ray) {
+  return std::asin(static_cast<double>(ray.z())) * 180.0 / M_PI;
+}
+
+TEST(SensorModel, FieldNeedNotBeSymmetric) {
+  SensorModel lidar;
+  lidar.fov_lower_deg = -7.0;
+  lidar.fov_upper_deg = 52.0;
+  const auto rays = rayDirections(lidar);
+  EXPECT_NEAR(elevation(rays.front()), -7.0, 1e-3);
+  EXPECT_NEAR(elevation(rays.back()), 52.0, 1e-3);
+  lidar.kind = "depth_camera";
+  lidar.fov_horizontal_deg = 60.0;
+  for (const auto& pixel : rayDirections(lidar)) {
+    ASSERT_GT(pixel.z() / pixel.x(), std::tan(-7.0 * M_PI / 180.0));
+    ASSERT_LT(pixel.z() / pixel.x(), std::tan(52.0 * M_PI / 180.0));
+  }
+  EXPECT_TRUE(lidar.problems().empty());
+}
+
+TEST(SensorModel, ShortFormAndLimitsGiveTheSameRays) {
+  SensorModel shortly;
+  shortly.fov_vertical_deg = 57.0;
+  SensorModel by_limits;
+  by_limits.fov_lower_deg = -28.5;
+  by_limits.fov_upper_deg = 28.5;
+  for (const char* kind : {"lidar", "depth_camera"}) {
+    for (SensorModel* sensor : {&shortly, &by_limits}) {
+      sensor->kind = kind;
+      sensor->fov_horizontal_deg = 90.0;
+    }
+    EXPECT_EQ(rayDirections(shortly), rayDirections(by_limits)) << kind;
+  }
+}
+
+TEST(SensorModel, ContradictingFieldsAreRefused) {
+  SensorModel sensor;
+  sensor.fov_vertical_deg = 30.0;
+  sensor.fov_lower_deg = -7.0;
+  sensor.fov_upper_deg = 52.0;
+  ASSERT_EQ(sensor.problems().size(), 1u);
+  EXPECT_NE(sensor.problems().front().find("59"), std::string::npos) << sensor.problems().front();
+  sensor.fov_vertical_deg = 59.0;
+  EXPECT_TRUE(sensor.problems().empty());
+  sensor.fov_lower_deg = 60.0;
+  EXPECT_EQ(sensor.problems().size(), 1u);
+}
+
+TEST(SensorModel, UpsideDownLooksAheadAndSwapsUpAndDown) {
+  SensorModel sensor;
+  sensor.mount_roll_deg = 180.0;
+  const Eigen::Matrix3d R_base_sensor = T_base_sensor(sensor).linear();
+  EXPECT_TRUE((R_base_sensor * Eigen::Vector3d::UnitX()).isApprox(Eigen::Vector3d::UnitX(), 1e-9));
+  EXPECT_TRUE((R_base_sensor * Eigen::Vector3d::UnitZ()).isApprox(-Eigen::Vector3d::UnitZ(), 1e-9));
+}
+
+TEST(SensorModel, RollComesAfterYawAndPitch) {
+  SensorModel sensor;
+  sensor.mount_yaw_deg = 90.0;
+  sensor.mount_roll_deg = 90.0;
+  // Turned to the left, then rolled about the axis that now points left: its top points ahead.
+  const Eigen::Vector3d top = T_base_sensor(sensor).linear() * Eigen::Vector3d::UnitZ();
+  EXPECT_TRUE(top.isApprox(Eigen::Vector3d::UnitX(), 1e-9)) << top.transpose();
+}
+
+TEST(SensorModel, SeesAllAroundOnlyIfTheHorizonStaysInItsField) {
+  SensorModel sensor;
+  EXPECT_TRUE(seesAllAround(sensor));
+  sensor.mount_roll_deg = 180.0;
+  EXPECT_TRUE(seesAllAround(sensor)) << "upside down";
+  sensor.mount_roll_deg = 90.0;
+  EXPECT_FALSE(seesAllAround(sensor)) << "a vertical ring";
+  sensor.mount_roll_deg = 0.0;
+  sensor.mount_pitch_deg = 10.0;
+  EXPECT_TRUE(seesAllAround(sensor)) << "15 degrees of field to each side";
+  sensor.fov_lower_deg = -7.0;
+  sensor.fov_upper_deg = 52.0;
+  EXPECT_FALSE(seesAllAround(sensor)) << "the horizon behind lies below its field";
+  sensor.mount_pitch_deg = 0.0;
+  EXPECT_TRUE(seesAllAround(sensor));
+  sensor.fov_horizontal_deg = 180.0;
+  EXPECT_FALSE(seesAllAround(sensor));
+}
+
+TEST(SensorModel, GainsFollowFromWhatSensorAndMapSee) {
+  SensorModel sensor;
+  EXPECT_EQ(resolved(sensor, 100.0).gain_range_m, sensor.range_max_m);
+  EXPECT_EQ(resolved(sensor, 12.0).gain_range_m, 12.0);
+  sensor.gain_range_m = 7.0;
+  EXPECT_EQ(resolved(sensor, 12.0).gain_range_m, 7.0);
+  EXPECT_EQ(resolved(sensor, 12.0).fov_upper_deg, 15.0);
+}
+
+TEST(SensorModel, RaysOfGainsLieCloserThanTheField) {
+  SensorModel narrow;
+  narrow.fov_horizontal_deg = 10.0;
+  narrow.gain_resolution_deg = 15.0;
+  EXPECT_EQ(narrow.problems().size(), 1u);
+}
+
 TEST(SensorModel, ImpossibleDescriptionsAreNamed) {
   SensorModel sensor;
   sensor.kind = "sonar";

@@ -149,5 +149,77 @@ TEST(ExploredVolume, ScansThatFollowLateAreAllCounted) {
   EXPECT_LT(early.volume_m3(), 0.9 * all.volume_m3());
 }
 
+/// A wall of panels of 1 x 1 m that leave cracks of `crack_m` between each other; `u` and `v` span
+/// it in whole metres.
+void addPanels(sim::WorldMesh& mesh, const Eigen::Vector3f& corner, const Eigen::Vector3f& u,
+               const Eigen::Vector3f& v, float crack_m) {
+  const Eigen::Vector3f along = u.normalized(), across = v.normalized();
+  for (int i = 0; static_cast<float>(i) < u.norm(); ++i)
+    for (int j = 0; static_cast<float>(j) < v.norm(); ++j) {
+      const Eigen::Vector3f low = corner + along * (static_cast<float>(i) + 0.5F * crack_m) +
+                                  across * (static_cast<float>(j) + 0.5F * crack_m);
+      const int base = static_cast<int>(mesh.vertices.size());
+      const float edge = 1.0F - crack_m;
+      for (const Eigen::Vector3f& place : {low, Eigen::Vector3f(low + edge * along),
+                                           Eigen::Vector3f(low + edge * along + edge * across),
+                                           Eigen::Vector3f(low + edge * across)})
+        mesh.vertices.push_back(place);
+      mesh.triangles.emplace_back(base, base + 1, base + 2);
+      mesh.triangles.emplace_back(base, base + 2, base + 3);
+    }
+}
+
+/// 10 x 8 x 4 m from (0.1, 0.1, 0.1) on, in the middle of bounds of 30 x 28 x 24 m.
+sim::WorldMesh crackedRoom(float crack_m) {
+  sim::WorldMesh mesh;
+  mesh.name = "cracked_room";
+  const Eigen::Vector3f low(0.1F, 0.1F, 0.1F), x(10.0F, 0.0F, 0.0F), y(0.0F, 8.0F, 0.0F),
+      z(0.0F, 0.0F, 4.0F);
+  addPanels(mesh, low, x, y, crack_m);
+  addPanels(mesh, low + z, x, y, crack_m);
+  addPanels(mesh, low, x, z, crack_m);
+  addPanels(mesh, low + y, x, z, crack_m);
+  addPanels(mesh, low, y, z, crack_m);
+  addPanels(mesh, low + x, y, z, crack_m);
+  test::addBox(mesh, {-10.0F, -10.0F, -10.0F}, {-9.0F, -9.0F, -9.0F});
+  test::addBox(mesh, {19.0F, 17.0F, 13.0F}, {20.0F, 18.0F, 14.0F});
+  return mesh;
+}
+
+TEST(ExploredVolume, WhatIsSeenThroughCracksIsCountedApart) {
+  const sim::WorldMesh mesh = crackedRoom(0.04F);
+  const sim::MeshScene scene(mesh);
+  const ReachableSpace space = reachableSpace(mesh, {5.0, 4.0, 2.0});
+  EXPECT_FALSE(space.leak);
+  ExploredVolume explored(mesh.bounds());
+  SeenVolume before;
+  for (int k = 0; k < 20; ++k) {
+    auto scan = test::scanFrom(scene, lidar(64, 900, 50.0), {1.3 + 0.4 * k, 4.0, 2.0}, 0.1 * k);
+    scan.scan.stamp_s = k;
+    explored.add(scan);
+    const SeenVolume seen = explored.partedBy(space);
+    EXPECT_GE(seen.inside_m3, before.inside_m3);
+    EXPECT_GE(seen.outside_m3, before.outside_m3);
+    before = seen;
+  }
+  EXPECT_NEAR(before.inside_m3 + before.outside_m3, explored.volume_m3(), 1e-6);
+  EXPECT_GT(before.outside_m3, 100.0);
+  EXPECT_GT(before.inside_m3, 0.7 * 10.0 * 8.0 * 4.0);
+  EXPECT_LE(before.inside_m3, volumeOf(space).total_m3);
+}
+
+TEST(ExploredVolume, OfAClosedMeshNothingLiesOutside) {
+  const sim::WorldMesh mesh =
+      sim::generateWorld(std::string(SPELUNK_SOURCE_DIR) + "/worlds/tiny_maze.yaml");
+  const sim::MeshScene scene(mesh);
+  const ReachableSpace space = reachableSpace(mesh, mesh.start->position);
+  EXPECT_TRUE(space.is_enclosed);
+  ExploredVolume explored(mesh.bounds());
+  explored.add(test::scanFrom(scene, lidar(64, 900, 50.0), mesh.start->position));
+  const SeenVolume seen = explored.partedBy(space);
+  EXPECT_EQ(seen.inside_m3, explored.volume_m3());
+  EXPECT_EQ(seen.outside_m3, 0.0);
+}
+
 }  // namespace
 }  // namespace spelunk::evaluation

@@ -74,7 +74,7 @@ RunRecord fly(const Eigen::Vector3d& by, const std::string& out, std::vector<GoT
   sim::Surroundings around;
   around.reach_m = 100.0;
   around.range_m = map::keyRange(mapParams());
-  const sim::WorldMesh mesh = sim::loadWorldMesh(writeRoom(folder, by), around);
+  const sim::WorldMesh mesh = sim::loadWorldMesh(writeRoom(folder, by), {}, around);
   RunSetup setup = setupFor(mesh);
   for (GoToLeg& leg : legs) leg.target = mesh.frame.written(Eigen::Vector3d(leg.target + by));
   setup.legs = legs;
@@ -84,7 +84,7 @@ RunRecord fly(const Eigen::Vector3d& by, const std::string& out, std::vector<GoT
   MissionRun run(setup, mesh, *planner);
   RunRecord record = run.fly();
   requireWritable(out);
-  writeReport(out, {"gbplanner", "room", "aerial", 3, 40.0, 0.0, mesh.frame}, record);
+  writeReport(out, {"gbplanner", "room", "aerial", 3, 40.0, mesh.frame}, record);
   run.mission().map().save(out + "/map.bt", mesh.frame);
   return record;
 }

@@ -60,13 +60,31 @@ TEST(MissionRun, SeesTheRoomAndComesHomeWithoutTouching) {
   EXPECT_FALSE(record.plans.empty());
 }
 
+TEST(MissionRun, StoppedInMidFlightItHasWhatItGathered) {
+  setLogSink([](LogLevel, const std::string&) {});
+  const RunSetup setup = roomSetup();
+  const sim::WorldMesh mesh = test::boxRoom({30.0F, 8.0F, 4.0F});
+  ParamTree tree;
+  const auto planner =
+      planners::makePlanner("gbplanner", tree, setup.robot, setup.map.resolution_m);
+  MissionRun run(setup, mesh, *planner);
+  const RunRecord record = run.fly([&](const Progress& progress) {
+    if (progress.t_s >= 12.0) run.stop("stopped by hand");
+  });
+  EXPECT_NEAR(record.mission_time_s, 12.0, 0.2);
+  EXPECT_FALSE(record.returned_home);
+  EXPECT_FALSE(record.ended_as_it_may);
+  EXPECT_EQ(record.outcome.rfind("stopped by hand, ", 0), 0U) << record.outcome;
+  EXPECT_GE(record.timeline.size(), 10U);
+  EXPECT_GT(record.explored_volume_m3, 50.0);
+}
+
 TEST(MissionRun, SameSeedWritesTheSameTimelineByteForByte) {
   const test::TemporaryFolder folder;
   std::vector<std::string> texts;
   for (const char* name : {"a", "b"}) {
     requireWritable(folder.at(name));
-    writeReport(folder.at(name), {"gbplanner", "room", "aerial", 3, 60.0, 0.0},
-                flyRoom(roomSetup()));
+    writeReport(folder.at(name), {"gbplanner", "room", "aerial", 3, 60.0}, flyRoom(roomSetup()));
     texts.push_back(textOf(folder.at(name) + "/timeline.csv"));
   }
   EXPECT_GT(texts[0].size(), 200U);
@@ -78,7 +96,7 @@ TEST(RunReport, SummaryHasEveryPromisedKey) {
   RunRecord record;
   record.outcome = "explored \"all\"";
   record.map_update_ms = {1.0, 2.0, 3.0};
-  writeReport(folder.at(""), {"gbplanner", "w", "aerial", 1, 900.0, 123.0}, record);
+  writeReport(folder.at(""), {"gbplanner", "w", "aerial", 1, 900.0}, record);
   const auto json = nlohmann::json::parse(textOf(folder.at("summary.json")));
   for (const char* key :
        {"planner", "world", "robot", "seed", "outcome", "mission_time_s", "wall_time_s",
@@ -140,6 +158,20 @@ TEST(MissionRun, PointInTheRockEndsAtOnceWithTheReason) {
   EXPECT_NE(record.outcome.find("obstacle"), std::string::npos) << record.outcome;
   EXPECT_EQ(record.legs.size(), 1U);
   EXPECT_LT(record.mission_time_s, 2.0);
+}
+
+TEST(RunReport, SaysWhereTheMeshLeaks) {
+  const test::TemporaryFolder folder;
+  RunRecord record;
+  record.explored_outside_m3 = 12.5;
+  writeReport(folder.at(""), {}, record);
+  EXPECT_EQ(nlohmann::json::parse(textOf(folder.at("summary.json")))["mesh_leaks"], false);
+  record.reachable.leak = Leak{{1.5, -2.0, 3.25}, true};
+  writeReport(folder.at(""), {}, record);
+  const auto json = nlohmann::json::parse(textOf(folder.at("summary.json")));
+  EXPECT_EQ(json["mesh_leaks"], true);
+  EXPECT_EQ(json["leak_m"], nlohmann::json({1.5, -2.0, 3.25}));
+  EXPECT_EQ(json["explored_outside_m3"], 12.5);
 }
 
 TEST(RunReport, FolderThatCannotBeWrittenIsNamed) {

@@ -29,7 +29,7 @@ TEST(ReachableVolume, OfABoxIsItsInsideAndItsShell) {
   EXPECT_NEAR(volume.free_m3, inside * voxel, 1e-6);
   EXPECT_NEAR(volume.total_m3, with_shell * voxel, 1e-6);
   EXPECT_NEAR(volume.surface_m3, (with_shell - inside) * voxel, 1e-6);
-  EXPECT_FALSE(volume.leaks);
+  EXPECT_FALSE(volume.leak);
 }
 
 TEST(ReachableVolume, LeavesOutARoomWithoutADoor) {
@@ -51,7 +51,7 @@ TEST(ReachableVolume, SaysThatAnOpenMeshLeaks) {
   sim::WorldMesh mesh = offsetRoom();
   mesh.triangles.pop_back();
   const ReachableVolume volume = reachableVolume(mesh, {2.0, 2.0, 1.0});
-  EXPECT_TRUE(volume.leaks);
+  EXPECT_TRUE(volume.leak);
   const Eigen::Vector3d widened = mesh.bounds().size() + Eigen::Vector3d::Constant(0.8);
   EXPECT_LE(volume.total_m3, widened.prod());
 }
@@ -87,7 +87,7 @@ TEST(ReachableVolume, OfAGeneratedWorldFitsItsEnclosedVolume) {
   EXPECT_LT(volume.free_m3, enclosed);
   EXPECT_GT(volume.total_m3, enclosed);
   EXPECT_NEAR(volume.free_m3 + 0.5 * volume.surface_m3, enclosed, 0.05 * enclosed);
-  EXPECT_FALSE(volume.leaks);
+  EXPECT_FALSE(volume.leak);
 }
 
 }  // namespace

@@ -93,6 +93,17 @@ TEST(TourSurvey, StaysOnItsSideOfAGapTooNarrowForTheRobot) {
   for (const Eigen::Vector3d& outlook : survey.outlooks) EXPECT_LT(outlook.x(), 12.0);
 }
 
+TEST(TourSurvey, ATinyRobotDoesNotLeapThroughAThinWall) {
+  sim::WorldMesh mesh;
+  mesh.name = "walled";
+  test::addBox(mesh, {0.0F, -0.5F, 0.0F}, {3.0F, 0.5F, 1.0F});
+  test::addBox(mesh, {1.55F, -0.5F, 0.0F}, {1.551F, 0.5F, 1.0F});
+  RobotModel tiny = smallFlyer();
+  tiny.box_m = {0.05, 0.05, 0.05};
+  const TourSurvey survey = surveyForTour(mesh, sim::MeshScene(mesh), {{0.5, 0.0, 0.5}, 0.0}, tiny);
+  for (const Eigen::Vector3d& outlook : survey.outlooks) EXPECT_LT(outlook.x(), 1.55);
+}
+
 TEST(TourSurvey, IsWrittenAndAFullOrMissingFolderNamed) {
   const TourSurvey survey = surveyOfCorridor(smallFlyer());
   const test::TemporaryFolder folder;
@@ -101,6 +112,20 @@ TEST(TourSurvey, IsWrittenAndAFullOrMissingFolderNamed) {
   EXPECT_EQ(static_cast<std::size_t>(rows.tellg()),
             survey.outlooks.size() * ((survey.volumes_m3.size() + 7) / 8));
   EXPECT_THROW(writeSurvey(survey, folder.at("none")), OutsideError);
+}
+
+TEST(TourSurvey, ARobotThatLooksOneWayTurnsAbout) {
+  RobotModel around = smallFlyer();
+  const TourSurvey all = surveyOfCorridor(around);
+  RobotModel one_way = smallFlyer();
+  SensorModel& camera = one_way.sensor_models.front();
+  camera.fov_horizontal_deg = 90.0;
+  camera.mount_roll_deg = 180.0;  // seen upside down, a symmetric field is the same
+  const TourSurvey turned = surveyOfCorridor(one_way);
+  ASSERT_EQ(all.outlooks.size(), turned.outlooks.size());
+  for (std::size_t i = 0; i < all.seen.size(); ++i)
+    EXPECT_NEAR(volumeOf(turned.seen[i], turned), volumeOf(all.seen[i], all),
+                0.03 * volumeOf(all.seen[i], all));
 }
 
 }  // namespace

@@ -44,26 +44,45 @@ class GrowingMap {
       if (cell != 0)
         blocks_.setValue(packIndex(kCorner + VoxelIndex(x, y, z)), cell == 2 ? 1.0F : -1.0F);
     });
-    const FrozenMap::Blocks nothing;
-    const FrozenMap::Blocks& last = frozen_ ? frozen_->blocks() : nothing;
-    frozen_ = std::make_shared<const FrozenMap>(
-        freezeBlocks(blocks_, blocks_.takeStatusChanges(), last), 0.2);
-    return frozen_;
+    return freeze();
+  }
+  /// Looks in vain into all that `grid` marks, as often as makes it silent.
+  std::shared_ptr<const FrozenMap> lookInVain(Grid grid) {
+    for (int look = 0; look < SilentVoxels::kLooks; ++look) {
+      std::vector<PackedKey> voxels;
+      forEachCell([&](int x, int y, int z) {
+        if (grid.at(x, y, z) != 0) voxels.push_back(packIndex(kCorner + VoxelIndex(x, y, z)));
+      });
+      silence_.countLook(voxels);
+    }
+    return freeze();
   }
 
  private:
+  std::shared_ptr<const FrozenMap> freeze() {
+    const FrozenMap::Blocks nothing;
+    const FrozenMap::Blocks& last = frozen_ ? frozen_->blocks() : nothing;
+    frozen_ = std::make_shared<const FrozenMap>(
+        freezeBlocks(blocks_, silence_, {blocks_.takeStatusChanges(), silence_.takeChanges()},
+                     last),
+        0.2);
+    return frozen_;
+  }
+
   BlockMap blocks_{LogOdds(MapParams{})};
+  SilentVoxels silence_;
   std::shared_ptr<const FrozenMap> frozen_;
 };
 
-void closeColumn(Grid& grid, int x, int y, int gap_max) {
+/// Gaps between two voxels that are known or silent: free beside a free one, else solid.
+void closeColumn(Grid& grid, Grid& silent, int x, int y, int gap_max) {
   int below = -1;
   for (int z = 0; z < kNz; ++z) {
-    if (grid.at(x, y, z) == 0) continue;
+    if (grid.at(x, y, z) == 0 && silent.at(x, y, z) == 0) continue;
     const int gap = z - below - 1;
     if (below >= 0 && gap > 0 && gap <= gap_max) {
-      const bool solid = grid.at(x, y, z) == 2 && grid.at(x, y, below) == 2;
-      for (int k = below + 1; k < z; ++k) grid.at(x, y, k) = solid ? 2 : 1;
+      const bool is_free = grid.at(x, y, z) == 1 || grid.at(x, y, below) == 1;
+      for (int k = below + 1; k < z; ++k) grid.at(x, y, k) = is_free ? 1 : 2;
     }
     below = z;
   }
@@ -77,14 +96,41 @@ bool isNearOccupied(Grid& grid, int x, int y, int z, int reach) {
   return false;
 }
 
-Grid byBruteForce(Grid grid, int gap, int reach) {
+Grid byBruteForce(Grid grid, int gap, int reach, Grid silent = {}) {
   for (int y = 0; y < kNy; ++y)
-    for (int x = 0; x < kNx; ++x) closeColumn(grid, x, y, gap);
+    for (int x = 0; x < kNx; ++x) closeColumn(grid, silent, x, y, gap);
   Grid grown = grid;
   forEachCell([&](int x, int y, int z) {
     if (isNearOccupied(grid, x, y, z, reach)) grown.at(x, y, z) = 2;
   });
   return grown;
+}
+
+/// Unknown voxels that are silent, or lie between two such in a column.
+Grid closedSilence(Grid known, Grid silent, int gap_max) {
+  forEachCell([&](int x, int y, int z) {
+    if (known.at(x, y, z) != 0) silent.at(x, y, z) = 0;
+  });
+  Grid closed = silent;
+  for (int y = 0; y < kNy; ++y)
+    for (int x = 0; x < kNx; ++x)
+      for (int z = 0, below = -1; z < kNz; ++z) {
+        if (silent.at(x, y, z) == 0) continue;
+        for (int k = below + 1; below >= 0 && z - below - 1 <= gap_max && k < z; ++k)
+          if (known.at(x, y, k) == 0) closed.at(x, y, k) = 1;
+        below = z;
+      }
+  return closed;
+}
+
+/// What silence adds: unknown voxels near silent ones are solid.
+Grid endedAtSilence(Grid silent, Grid expected, int reach) {
+  forEachCell([&](int x, int y, int z) { silent.at(x, y, z) *= 2; });
+  forEachCell([&](int x, int y, int z) {
+    if (expected.at(x, y, z) == 0 && isNearOccupied(silent, x, y, z, reach))
+      expected.at(x, y, z) = 2;
+  });
+  return expected;
 }
 
 /// A free block with ragged ends in unknown space, and a few returns.
@@ -126,6 +172,24 @@ TEST(CredibleMap, OfAChangedMapIsThatOfAFreshOne) {
       grid.at(rng.below(kNx), rng.below(1 + 7 * round), rng.below(kNz)) =
           static_cast<std::uint8_t>(1 + rng.below(2));
     expectEqual(*credible.of(map.set(grid)), byBruteForce(grid, 7, 2));
+  }
+}
+
+TEST(CredibleMap, SilentVoxelsEndRaysUntilTheyAreKnown) {
+  Rng rng(34);
+  GrowingMap map;
+  CredibleMap credible({1.4, 0.4});
+  Grid grid;
+  Grid silent;
+  for (int round = 0; round < 6; ++round) {
+    for (int i = 0; i < 500; ++i)
+      grid.at(rng.below(kNx), rng.below(1 + 7 * round), rng.below(kNz)) =
+          static_cast<std::uint8_t>(1 + rng.below(4) / 3);
+    static_cast<void>(credible.of(map.set(grid)));
+    for (int i = 0; i < 200; ++i) silent.at(rng.below(kNx), rng.below(kNy), rng.below(kNz)) = 1;
+    const Grid closed = closedSilence(grid, silent, 7);
+    expectEqual(*credible.of(map.lookInVain(silent)),
+                endedAtSilence(closed, byBruteForce(grid, 7, 2, closed), 2));
   }
 }
 

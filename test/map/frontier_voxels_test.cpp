@@ -43,7 +43,8 @@ class GrowingMap {
     const FrozenMap::Blocks nothing;
     const FrozenMap::Blocks& last = frozen_ ? frozen_->blocks() : nothing;
     frozen_ = std::make_shared<const FrozenMap>(
-        freezeBlocks(blocks_, blocks_.takeStatusChanges(), last), kResolution);
+        freezeBlocks(blocks_, SilentVoxels{}, {blocks_.takeStatusChanges(), {}}, last),
+        kResolution);
     return frozen_;
   }
 

@@ -31,7 +31,9 @@ class Painted {
   }
   std::shared_ptr<const FrozenMap> frozen() {
     return std::make_shared<const FrozenMap>(
-        freezeBlocks(blocks_, blocks_.takeStatusChanges(), FrozenMap::Blocks{}), kEdge_m);
+        freezeBlocks(blocks_, SilentVoxels{}, {blocks_.takeStatusChanges(), {}},
+                     FrozenMap::Blocks{}),
+        kEdge_m);
   }
 
  private:

@@ -92,7 +92,52 @@ TEST_F(BadInput, StartInCollisionIsRefused) {
   mission.onOdometry(state);
   const Answer answer = mission.start();
   EXPECT_FALSE(answer.accepted);
-  EXPECT_TRUE(contains(answer.reason, "collision"));
+  for (const char* part : {"1 occupied voxels", "[0.4, 0.4, 0.2] m", "(3.0, 2.5, 2.5)",
+                           "nearest at", "move the robot", "robot.box_m"})
+    EXPECT_TRUE(contains(answer.reason, part)) << part << " in " << answer.reason;
+  mission.noteInputs({"", "returns 0.3 m from the sensor are its own", ""});
+  EXPECT_TRUE(contains(mission.start().reason, "returns 0.3 m from the sensor are its own"));
+}
+
+TEST_F(BadInput, WhatTheOwnerFindsWrongWithInputsRefusesTheStartAndHoldsTheRobot) {
+  ScriptedFlight flight(test::corridorWorld(40.0), kStart, planner_);
+  const std::string problem = "waits for point clouds on '/points': none since 4 s";
+  flight.mission().noteInputs({problem, "", ""});
+  EXPECT_EQ(flight.mission().start().reason, problem);
+  flight.mission().noteInputs({});
+  ASSERT_TRUE(flight.start().accepted);
+  flight.flyFor(2.0);
+  ASSERT_NE(flight.mission().status().state, MissionState::kHold);
+  flight.mission().noteInputs({problem, "", ""});
+  flight.flyFor(1.0);
+  EXPECT_EQ(flight.mission().status().state, MissionState::kHold);
+  EXPECT_EQ(flight.mission().status().reason, problem);
+  flight.mission().noteInputs({});
+  flight.flyFor(8.0);
+  EXPECT_NE(flight.mission().status().state, MissionState::kHold) << "it is over";
+}
+
+TEST_F(BadInput, AFlawOfInputsIsSaidWhereTheMissionEndsAsExplored) {
+  planner_.on_plan = nullptr;  // Nothing to gain.
+  ScriptedFlight flight(test::corridorWorld(40.0), kStart, planner_);
+  ASSERT_TRUE(flight.start().accepted);
+  flight.mission().noteInputs({"", "", "returns 0.5 m from the sensor move with the robot"});
+  flight.flyFor(20.0);
+  EXPECT_TRUE(contains(flight.mission().status().end_reason,
+                       "explored: the script says so; but returns 0.5 m from the sensor move"))
+      << flight.mission().status().end_reason;
+}
+
+TEST_F(BadInput, ADoubtAboutInputsExplainsWhyThereIsNoPlan) {
+  planner_.on_plan = [](const planners::PlanRequest&) {
+    return ScriptedPlanner::none(planners::PlanStatus::kStartBlocked);
+  };
+  ScriptedFlight flight(test::corridorWorld(40.0), kStart, planner_);
+  ASSERT_TRUE(flight.start().accepted);
+  flight.mission().noteInputs({"", "returns 0.5 m from the sensor are its own", ""});
+  flight.flyFor(20.0);
+  EXPECT_TRUE(contains(flight.mission().status().end_reason, "returns 0.5 m from the sensor"))
+      << flight.mission().status().end_reason;
 }
 
 TEST_F(BadInput, OdometryWithNanHoldsTheRobotAndMissionGoesOnAfter) {
@@ -134,6 +179,20 @@ TEST_F(BadInput, SilentOdometryAndScansHoldTheRobotAndSaySo) {
     EXPECT_EQ(flight.mission().status().state, MissionState::kHold) << which;
     EXPECT_TRUE(contains(flight.mission().status().reason, which))
         << flight.mission().status().reason;
+  }
+}
+
+/// Of sensors that are slow, or whose scans are seldom mapped.
+TEST_F(BadInput, SlowSensorsDoNotHoldTheRobotForEver) {
+  for (const bool is_slow : {true, false}) {
+    RobotModel robot = test::smallRobot();
+    if (is_slow) robot.sensor_models[0].rate_hz = 0.4;
+    if (!is_slow) robot.sensor_models[0].mapping_period_s = 4.0;
+    ScriptedFlight flight(test::corridorWorld(60.0), kStart, planner_, {}, 1, robot);
+    if (is_slow) flight.scanEvery(2.5);
+    ASSERT_TRUE(flight.start().accepted);
+    flight.flyFor(40.0);
+    EXPECT_GT(flight.mission().status().distance_m, 5.0) << flight.mission().status().reason;
   }
 }
 

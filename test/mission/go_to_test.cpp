@@ -18,9 +18,13 @@ struct Flight {
   }
 
   Answer goTo(const Eigen::Vector3d& point, const navigation::NavigationParams& params = {}) {
-    auto query = scripted.mission().goToQuery(point);
-    query->rng = Rng(7);
-    return scripted.mission().goTo(params, *query, navigation::Navigator(params).plan(*query));
+    Mission& mission = scripted.mission();
+    const Answer given = mission.goTo(point, params);
+    if (!given.accepted) return given;
+    const auto job = mission.takeJob();
+    EXPECT_TRUE(job);
+    mission.take(run(*job, planner), scripted.now());
+    return {status().outcome == GoToOutcome::kUnderway, status().reason};
   }
 
   /// Until the flight to the point ends; each path that is flown is known free when it is taken.
@@ -150,7 +154,8 @@ TEST(GoTo, RefusalsSayWhy) {
   zone.polygon = {{12, 0}, {18, 0}, {18, 5}, {12, 5}};
   ASSERT_TRUE(flight.scripted.mission().setZones({zone}).accepted);
   EXPECT_NE(refusalOf({15.0, 2.5, 2.5}).find("no-go"), std::string::npos);
-  EXPECT_EQ(flight.status().outcome, GoToOutcome::kNone);
+  EXPECT_EQ(flight.status().outcome, GoToOutcome::kUnreachable);
+  EXPECT_EQ(flight.scripted.mission().status().distance_m, 0.0) << "nothing was flown";
 }
 
 TEST(GoTo, PointFromWhichThereIsNoWayHomeInTimeIsRefused) {

@@ -35,7 +35,7 @@ class BusyMission : public testing::Test {
     parts.inputs_ok = true;
     parts.updateEndurance();
     PointJob job;
-    job.query = *parts.goToQuery({9.0, 2.5, 2.5});
+    job.query.goal = {{9.0, 2.5, 2.5}, 0.0};
     parts.point.begin(job, 0.0);
     const Pose here = parts.watch.pose();
     parts.flight.fly(Leg({here, {{9.0, 2.5, 2.5}, 0.0}}, PathKind::kLocal, parts.robot.box_m), here,
@@ -82,6 +82,21 @@ TEST_F(BusyMission, NoPartCarriesOnForATaskThatHasEnded) {
         EXPECT_TRUE(parts.flight.goesHome());
       }
     }
+}
+
+TEST_F(BusyMission, TurningHomeIsUndoneOnlyWhenItsCauseIsGone) {
+  for (const Event cause :
+       {Event::kWayHomeLost, Event::kEnduranceLow, Event::kNothingLeft, Event::kHomeAsked}) {
+    Parts parts({}, test::smallRobot(), test::coarseMap(), 1, {});
+    makeBusy(parts, Task::kExplore);
+    parts.happens(cause, "the test says so");
+    ASSERT_EQ(parts.task, Task::kHome);
+    parts.now = 1.0;
+    parts.checkCause();  // the trail is free: a way home is known
+    const bool is_gone = cause == Event::kWayHomeLost;
+    EXPECT_EQ(parts.task, is_gone ? Task::kExplore : Task::kHome);
+    EXPECT_TRUE(parts.flight.active()) << "what is flown goes on meanwhile";
+  }
 }
 
 }  // namespace

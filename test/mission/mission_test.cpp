@@ -343,5 +343,100 @@ TEST_F(CorridorMission, EnduranceIsKeptOverSavingAndLoading) {
   EXPECT_GT(at_home.mission().status().remaining_s, left_s + 5.0) << "a robot at home can recharge";
 }
 
+TEST_F(CorridorMission, PathThatNobodyCarriesOutIsNeverTakenForExplored) {
+  ScriptedFlight flight(test::corridorWorld(30.0), kStart, planner_);
+  flight.ignoreCommands();
+  ASSERT_TRUE(flight.start().accepted);
+  bool said = false;
+  for (int k = 0; k < 400; ++k) {
+    flight.step();
+    said = said ||
+           flight.mission().status().reason.find("does not follow its path") != std::string::npos;
+    ASSERT_NE(flight.mission().status().state, MissionState::kDone)
+        << flight.mission().status().end_reason;
+  }
+  EXPECT_TRUE(said);
+  for (const planners::PathReport& report : planner_.reports)
+    EXPECT_TRUE(report.outcome == planners::PathOutcome::kNone ||
+                report.outcome == planners::PathOutcome::kReplaced)
+        << "nobody has flown there: " << report.reason;
+  flight.obeyCommands();
+  EXPECT_TRUE(flight.flyToTheEnd(200.0)) << flight.mission().status().reason;
+  EXPECT_GT(flight.mission().status().distance_m, 32.0);
+}
+
+TEST_F(CorridorMission, PathThatNobodyCarriesOutEndsNoWayHomeAndNoFlightToAPoint) {
+  ScriptedFlight flight(test::corridorWorld(30.0), kStart, planner_);
+  ASSERT_TRUE(flight.start().accepted);
+  flight.flyFor(5.0);
+  ASSERT_TRUE(flight.mission().home().accepted);
+  flight.flyFor(1.0);
+  ASSERT_TRUE(flight.mission().pause().accepted);
+  flight.flyFor(4.0);
+  flight.ignoreCommands();
+  ASSERT_TRUE(flight.mission().home().accepted);
+  flight.flyFor(20.0);
+  EXPECT_EQ(flight.mission().status().end_reason, "home as asked");
+  EXPECT_NE(flight.mission().status().state, MissionState::kDone);
+  flight.obeyCommands();
+  EXPECT_TRUE(flight.flyToTheEnd(90.0)) << flight.mission().status().reason;
+}
+
+TEST_F(CorridorMission, LookingAtPlansInBetweenChangesNothing) {
+  std::vector<double> ends;
+  for (const bool looks : {false, true}) {
+    ScriptedFlight flight(test::corridorWorld(30.0), kStart, planner_);
+    ASSERT_TRUE(flight.start().accepted);
+    while (flight.mission().status().state != MissionState::kDone && flight.now() < 120.0) {
+      flight.step();
+      if (!looks) continue;
+      const auto request = flight.mission().requestHere(flight.now());
+      ASSERT_TRUE(request);
+      static_cast<void>(planner_.plan(*request));
+    }
+    ends.push_back(flight.now());
+    ends.push_back(flight.mission().status().distance_m);
+  }
+  EXPECT_EQ(ends[0], ends[2]);
+  EXPECT_EQ(ends[1], ends[3]);
+}
+
+/// Starts so near to the floor that the safety box touches it.
+class StartOnTheFloor : public CorridorMission, public testing::WithParamInterface<double> {
+ protected:
+  void SetUp() override {
+    CorridorMission::SetUp();
+    planner_.on_plan = [](const planners::PlanRequest& request) {
+      if (request.pose.position.x() > 15.0)
+        return ScriptedPlanner::none(PlanStatus::kNothingToGain);
+      Path path{request.pose, request.pose};
+      path.back().position.x() += 6.0;
+      return ScriptedPlanner::path(path, PathKind::kLocal);
+    };
+  }
+};
+
+TEST_P(StartOnTheFloor, TakesOffExploresComesHomeAndLands) {
+  const Pose stand{{3.0, 2.5, 1.0 + GetParam()}, 0.0};
+  ScriptedFlight flight(test::corridorWorld(30.0), stand, planner_);
+  ASSERT_TRUE(flight.start().accepted) << flight.mission().status().reason;
+  EXPECT_EQ(flight.mission().status().state, MissionState::kTakeOff);
+  double highest_m = 0.0;
+  bool landed = false;
+  while (flight.mission().status().state != MissionState::kDone && flight.now() < 120.0) {
+    flight.step();
+    highest_m = std::max(highest_m, flight.state().pose.position.z());
+    landed = landed || flight.mission().status().state == MissionState::kLand;
+  }
+  ASSERT_EQ(flight.mission().status().state, MissionState::kDone)
+      << flight.mission().status().reason;
+  EXPECT_GT(highest_m, stand.position.z() + 0.3);
+  EXPECT_GT(flight.mission().status().distance_m, 20.0) << flight.mission().status().end_reason;
+  EXPECT_TRUE(landed);
+  EXPECT_LT(distance(flight.state().pose, stand), 0.3);
+}
+
+INSTANTIATE_TEST_SUITE_P(Heights, StartOnTheFloor, testing::Values(0.12, 0.18));
+
 }  // namespace
 }  // namespace spelunk::mission

@@ -60,8 +60,8 @@ TEST(Transitions, OnlyAStartReleasesAStop) {
 TEST(Transitions, EveryRunningTaskStopsForDangerAndKeepsItsAim) {
   for (const Task task : allTasks()) {
     if (!isRunning(task)) continue;
-    for (const Event event : {Event::kInputsFailed, Event::kLeftPath, Event::kObstacleAhead,
-                              Event::kGroundUnseen, Event::kGroundBad}) {
+    for (const Event event : {Event::kInputsFailed, Event::kLeftPath, Event::kPathIgnored,
+                              Event::kObstacleAhead, Event::kGroundUnseen, Event::kGroundBad}) {
       const Rule rule = ruleFor(task, event);
       EXPECT_TRUE(rule.action == Action::kHold || rule.action == Action::kBackOff);
       EXPECT_EQ(rule.next, task);
@@ -73,7 +73,7 @@ TEST(Transitions, EveryRunningTaskStopsForDangerAndKeepsItsAim) {
 
 TEST(Transitions, LowEnduranceLeavesNoTaskButHome) {
   for (const Task task : allTasks())
-    if (isRunning(task)) {
+    if (isRunning(task) && task != Task::kLand) {  // it is at home
       EXPECT_EQ(ruleFor(task, Event::kEnduranceLow).next, Task::kHome);
     }
 }

@@ -38,6 +38,10 @@ class CutTrail : public testing::Test {
       return ScriptedPlanner::none(PlanStatus::kNoPath);
     };
   }
+  void TearDown() override {
+    for (const std::string& line : log_)
+      EXPECT_NE(line.substr(0, 1), ";") << "a sentence lacks its first half: " << line;
+  }
   /// Past all stops; the last one lies beyond `x_min_m`.
   void flyOut(ScriptedFlight& flight, double x_min_m = 17.0) {
     ASSERT_TRUE(flight.start().accepted);
@@ -109,6 +113,15 @@ TEST_F(SeenWayHome, IsNotReliedUponAtTheEndOfTheEndurance) {
   flight.setBudget(kThereAndBack_s);
   flyOut(flight, 6.0);
   EXPECT_TRUE(fliesBack(flight));
+}
+
+TEST_F(CutTrail, AskedHomeFromAStandstillItComesHomeAndSaysNothingByHalves) {
+  ScriptedFlight flight(twoGalleries(), kStart, planner_);
+  flyOut(flight);
+  ASSERT_TRUE(flight.mission().pause().accepted);
+  flight.flyFor(3.0);
+  ASSERT_TRUE(flight.mission().home().accepted);
+  EXPECT_TRUE(flight.flyToTheEnd(flight.now() + 60.0)) << flight.mission().status().reason;
 }
 
 TEST_F(CutTrail, AnswersThatTakeSecondsAreWaitedFor) {

@@ -193,7 +193,7 @@ TEST_F(TwoFrontiers, OnlyOnesOfFullGainCountAsLeftBehind) {
 }
 
 TEST_F(TwoFrontiers, ClosesATargetThatFailedAndSaysWhy) {
-  tried_.note({10, 0, 1}, PathOutcome::kRejectedBudget, "no way home fits");
+  tried_.note({10, 0, 1}, PathOutcome::kRejectedBudget, "no way home fits", 0.0);
   EXPECT_TRUE(plan().target->isApprox(Eigen::Vector3d(-30, 0, 1)));
   EXPECT_EQ(global_.frontiers().front().closed_because, "tried and given up: no way home fits");
 }

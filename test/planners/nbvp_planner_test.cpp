@@ -95,7 +95,7 @@ TEST_F(InACorridor, KeepsTheRestOfTheBestBranchForTheNextPlan) {
   ASSERT_GE(branch.size(), 3U);
   request_.pose = first.path.back();
   request_.time_s = 2.0;
-  request_.last_outcome = PathOutcome::kReached;
+  planner.report({first.memory, PathOutcome::kReached, ""});
   request_.budget.iterations = 1;  // nothing new can grow
   const PlanResult second = planner.plan(request_);
   ASSERT_EQ(second.status, PlanStatus::kOk) << second.reason;
@@ -110,12 +110,13 @@ TEST_F(InACorridor, WhatIsLeftOfAnEdgeIsExecutedWithTheNextOneAndNothingIsFlownB
   const std::vector<Eigen::Vector3d> branch = bestBranch(planner);
   ASSERT_GE(branch.size(), 3U);
   request_.pose = poseAt(first.path, lengthOf(first.path) - 0.4);
-  request_.last_outcome = PathOutcome::kReplaced;
+  planner.report({first.memory, PathOutcome::kReplaced, ""});
   request_.budget.iterations = 1;
   const PlanResult rest = planner.plan(request_);
   ASSERT_EQ(rest.path.size(), 3U);
   EXPECT_EQ(rest.path[1].position, branch[1]);
   EXPECT_EQ(rest.path[2].position, branch[2]);
+  planner.report({rest.memory, PathOutcome::kReplaced, ""});
   request_.pose = poseAt(rest.path, 0.4 + 0.3);  // beyond the first corner
   const PlanResult beyond = planner.plan(request_);
   ASSERT_EQ(beyond.status, PlanStatus::kOk);

@@ -90,7 +90,7 @@ TEST_P(EveryPlanner, GetsToTheEndOfACorridorTargetByTarget) {
     request_.pose = result.path.back();
     request_.time_s = i;
     request_.trail.push_back({request_.time_s, request_.pose});
-    request_.last_outcome = PathOutcome::kReached;
+    planner_->report({result.memory, PathOutcome::kReached, ""});
     map_->insert(world.scan(robot_.sensor_models.front(), request_.pose, request_.time_s),
                  boxAround(request_.pose.position, robot_.box_m));
     request_.map = map_->freeze();
@@ -113,14 +113,55 @@ TEST_P(EveryPlanner, RepeatsWithTheSameSeed) {
   }
 }
 
-TEST_P(EveryPlanner, ForgetsEverythingOnReset) {
-  seeTheBeginningOf(test::corridorWorld(40.0));
-  const PlanResult first = planner_->plan(request_);
-  planner_->reset();
-  EXPECT_EQ(planner_->graph().layers.back().vertices.size(), 0U);
-  const PlanResult again = planner_->plan(request_);
-  ASSERT_EQ(first.path.size(), again.path.size());
-  EXPECT_EQ(first.path.back().position, again.path.back().position);
+TEST_P(EveryPlanner, LookingAtPlansLeavesNoTrace) {
+  const test::GridWorld world = test::corridorWorld(24.0);
+  seeTheBeginningOf(world);
+  const auto other = makePlanner(GetParam(), tree_, robot_, kResolution);
+  for (int i = 1; i < 8; ++i) {
+    PlanRequest look = request_;
+    look.rng = Rng(static_cast<std::uint64_t>(i));
+    for (int k = 0; k < 2; ++k) static_cast<void>(planner_->plan(look));
+    static_cast<void>(planner_->planHome(look));
+    const PlanResult looked = planner_->plan(request_);
+    const PlanResult not_looked = other->plan(request_);
+    ASSERT_EQ(looked.status, not_looked.status);
+    ASSERT_EQ(looked.path.size(), not_looked.path.size());
+    for (std::size_t n = 0; n < looked.path.size(); ++n)
+      EXPECT_EQ(looked.path[n].position, not_looked.path[n].position);
+    if (looked.status != PlanStatus::kOk) break;
+    planner_->report({looked.memory, PathOutcome::kReached, ""});
+    other->report({not_looked.memory, PathOutcome::kReached, ""});
+    request_.pose = looked.path.back();
+    request_.time_s = i;
+    request_.trail.push_back({request_.time_s, request_.pose});
+    map_->insert(world.scan(robot_.sensor_models.front(), request_.pose, request_.time_s),
+                 boxAround(request_.pose.position, robot_.box_m));
+    request_.map = map_->freeze();
+  }
+}
+
+TEST_P(EveryPlanner, ReportOfAnotherPlannersPlanIsRefused) {
+  struct Foreign : PlanMemory {};
+  EXPECT_THROW(planner_->report({std::make_shared<Foreign>(), PathOutcome::kReached, ""}),
+               Precondition);
+}
+
+TEST_P(EveryPlanner, WayHomeAvoidsAZoneThatReplacedAnotherOne) {
+  knowAllOf(test::corridorWorld(24.0));
+  for (double x = request_.home.position.x(); x <= 15.0; x += 0.5)
+    request_.trail.push_back({x, {{x, 2.5, 2.5}, 0.0}});
+  request_.pose = request_.trail.back().pose;
+  request_.time_s = 22.0;
+  const auto zoneFrom = [](double x) {
+    return NoGoZone{"zone", {{x, 0.0}, {x + 1.0, 0.0}, {x + 1.0, 6.0}, {x, 6.0}}, 0.0, 6.0};
+  };
+  request_.zones = {zoneFrom(20.0)};
+  request_.zones_revision = 1;
+  planner_->report({planner_->plan(request_).memory, PathOutcome::kNone, ""});
+  ASSERT_EQ(planner_->planHome(request_).status, PlanStatus::kOk);
+  request_.zones = {zoneFrom(8.0)};  // right across the only way home
+  request_.zones_revision = 2;
+  EXPECT_EQ(planner_->planHome(request_).status, PlanStatus::kNoPath);
 }
 
 TEST_P(EveryPlanner, ReportsNothingToGainInAFullyMappedRoom) {
@@ -174,6 +215,7 @@ TEST_P(EveryPlanner, FindsItsWayHomeFromTheEndOfItsPath) {
   const PlanResult out = planner_->plan(request_);
   ASSERT_EQ(out.status, PlanStatus::kOk);
   request_.pose = out.path.back();
+  request_.after = out.memory;
   const PlanResult back = planner_->planHome(request_);
   expectFreePathFromPose(back);
   EXPECT_EQ(back.kind, PathKind::kHome);
@@ -198,7 +240,7 @@ TEST_P(EveryPlanner, ComesHomeTheShortWayFromATargetBesideHome) {
     ASSERT_EQ(out.status, PlanStatus::kOk) << out.reason;
     request_.pose = out.path.back();
     request_.time_s += 1.0;
-    request_.last_outcome = PathOutcome::kReached;
+    planner_->report({out.memory, PathOutcome::kReached, ""});
   }
   ASSERT_LT(distance(request_.pose, request_.home), 8.0);
   const PlanResult back = planner_->planHome(request_);
@@ -216,11 +258,11 @@ TEST_P(EveryPlanner, DoesNotProposeATargetForeverThatIsRefusedEachTime) {
   seeTheBeginningOf(test::corridorWorld(40.0));
   const PlanResult first = planner_->plan(request_);
   ASSERT_EQ(first.status, PlanStatus::kOk);
-  request_.last_outcome = PathOutcome::kRejectedUnsafe;
-  request_.last_reason = "meets an obstacle";
   PlanResult result = first;
-  for (int i = 0; i < 60 && result.status == PlanStatus::kOk; ++i)
+  for (int i = 0; i < 60 && result.status == PlanStatus::kOk; ++i) {
+    planner_->report({result.memory, PathOutcome::kRejectedUnsafe, "meets an obstacle"});
     result = planner_->plan(request_);
+  }
   EXPECT_NE(result.status, PlanStatus::kOk) << "still tries after 60 refusals";
   EXPECT_FALSE(result.reason.empty());
 }

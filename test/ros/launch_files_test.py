@@ -34,6 +34,7 @@ class LaunchFiles(unittest.TestCase):
     def test_arguments_reach_the_nodes(self):
         config = self.load("aerial.launch", ["world:=cave", "seed:=7", "planner:=gbplanner",
                                              "time_limit_s:=123", "speed_factor:=2.5",
+                                             "world_scale:=0.001", "world_up:=y",
                                              "rviz:=false"])
         values = {name: parameter.value for name, parameter in config.params.items()}
         self.assertEqual(values["/sim_node/world"], "cave")
@@ -41,6 +42,8 @@ class LaunchFiles(unittest.TestCase):
         self.assertEqual(values["/planner_node/seed"], 7)
         self.assertEqual(values["/planner_node/time_limit_s"], 123.0)
         self.assertEqual(values["/sim_node/speed_factor"], 2.5)
+        self.assertEqual(values["/sim_node/world_scale"], 0.001)
+        self.assertEqual(values["/sim_node/world_up"], "y")
         self.assertTrue(values["/use_sim_time"])
         self.assertEqual({node.name for node in config.nodes}, {"sim_node", "planner_node"})
 

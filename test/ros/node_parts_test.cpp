@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "spelunk/common/contract.h"
+#include "spelunk/ros/clock_watch.h"
 #include "spelunk/ros/endurance_source.h"
 #include "spelunk/ros/guarded.h"
 #include "spelunk/ros/input_watch.h"
@@ -126,7 +127,7 @@ TEST(EnduranceSource, BatteryCountsAndRunsDownWhileItIsSilent) {
 TEST(InputWatch, SaysWhichTopicIsSilentAndWhatToRemap) {
   const RecordedLog log;
   InputWatch watch;
-  const auto cloud = watch.expect({"/robot/points", "pointcloud", 3.0}, 0.0);
+  const auto cloud = watch.expect({"point clouds", "/robot/points", "pointcloud", 3.0, {}, 0}, 0.0);
   watch.checkSilence(2.0);
   EXPECT_TRUE(log.lines().empty());
   watch.checkSilence(4.0);
@@ -144,6 +145,94 @@ TEST(InputWatch, RepeatsAProblemAtMostOnceInFiveSeconds) {
   InputWatch watch;
   for (int i = 0; i < 100; ++i) watch.report("odometry", "odometry holds NaN", 0.1 * i);
   EXPECT_EQ(log.lines().size(), 2U) << "ten seconds of it";
+}
+
+void expectParts(const std::string& text, const std::vector<std::string>& parts) {
+  for (const std::string& part : parts)
+    EXPECT_NE(text.find(part), std::string::npos) << part << " in " << text;
+}
+
+class WaitingTest : public ::testing::Test {
+ protected:
+  InputWatch watch_;
+  std::uint32_t publishers_ = 0;
+  InputWatch::Wanted odometry_ =
+      watch_.expect({"odometry", "/odom", "odometry", 3.0, [this] { return publishers_; }, 1}, 0.0);
+  InputWatch::Wanted clouds_ =
+      watch_.expect({"point clouds", "/points", "pointcloud", 3.0, {}, 0}, 0.0);
+};
+
+TEST_F(WaitingTest, NamesEachInputThatNeverCame) {
+  expectParts(watch_.waiting(12.0),
+              {"waits for odometry on '/odom': none since 12 s (publishers: 0)",
+               "waits for point clouds on '/points': none since 12 s", "remap 'odometry'",
+               "remap 'pointcloud'"});
+}
+
+TEST_F(WaitingTest, TellsAPublisherThatSendsNothingFromNone) {
+  publishers_ = 1;
+  expectParts(watch_.waiting(12.0), {"(publishers: 1): see why the publisher sends nothing"});
+}
+
+TEST_F(WaitingTest, IsOverOnceEachInputWasOfUse) {
+  watch_.heard(odometry_, 1.0);
+  watch_.used(odometry_, 1.0);
+  EXPECT_EQ(watch_.waiting(1.1).find("odometry"), std::string::npos);
+  watch_.heard(clouds_, 1.0);
+  watch_.used(clouds_, 1.0);
+  EXPECT_EQ(watch_.waiting(3.9), "");
+}
+
+TEST_F(WaitingTest, SaysWhyWhatArrivesIsOfNoUse) {
+  const RecordedLog log;
+  watch_.heard(clouds_, 5.0);
+  expectParts(watch_.waiting(5.0), {"waits for usable point clouds on '/points'"});
+  watch_.report(clouds_, "tf", "no transform for 'lidar'", 5.0);
+  expectParts(watch_.waiting(5.0), {"waits for usable point clouds", "no transform for 'lidar'"});
+}
+
+TEST_F(WaitingTest, NoticesAStreamThatStopsInMidMission) {
+  for (const auto input : {odometry_, clouds_}) {
+    watch_.heard(input, 10.0);
+    watch_.used(input, 10.0);
+  }
+  watch_.used(odometry_, 20.0);
+  EXPECT_EQ(watch_.waiting(12.0), "");
+  expectParts(watch_.waiting(20.0),
+              {"waits for point clouds on '/points': none any more since 10 s"});
+}
+
+TEST_F(WaitingTest, TwoPublishersOfOdometryAreSaidWithTheRemedy) {
+  const RecordedLog log;
+  publishers_ = 2;
+  watch_.checkSilence(1.0);
+  ASSERT_EQ(log.lines().size(), 1U);
+  expectParts(log.lines()[0], {"2 publishers of odometry on '/odom', wanted is 1",
+                               "rostopic info /odom", "remap 'odometry'"});
+}
+
+TEST(ClockWatch, SaysThatASimulatedClockNeverCame) {
+  ClockWatch watch;
+  const auto simulated = ClockWatch::Source::kSimulated;
+  EXPECT_EQ(watch.check(ros::Time(), simulated, 100.0), "");
+  EXPECT_EQ(watch.check(ros::Time(), simulated, 101.0), "") << "it may still come";
+  expectParts(watch.check(ros::Time(), simulated, 102.0),
+              {"use_sim_time is true", "/clock for 2 s", "--clock", "/use_sim_time to false"});
+  EXPECT_EQ(watch.check(ros::Time(5.0), simulated, 103.0), "");
+}
+
+TEST(ClockWatch, SaysThatASimulatedClockStandsStill) {
+  ClockWatch watch;
+  const auto simulated = ClockWatch::Source::kSimulated;
+  EXPECT_EQ(watch.check(ros::Time(5.0), simulated, 100.0), "");
+  EXPECT_EQ(watch.check(ros::Time(5.0), simulated, 104.0), "");
+  expectParts(watch.check(ros::Time(5.0), simulated, 106.0), {"stood still at 5.00 s for 6 s"});
+}
+
+TEST(ClockWatch, HasNothingToSayOfTheSystemsClock) {
+  ClockWatch watch;
+  for (const double real_s : {100.0, 110.0})
+    EXPECT_EQ(watch.check(ros::Time(1e9), ClockWatch::Source::kSystem, real_s), "");
 }
 
 RobotModel robotWithCamera() {
@@ -280,7 +369,6 @@ class FakePlanner : public planners::ExplorationPlanner {
   explicit FakePlanner(bool fails) : fails_(fails) {}
   [[nodiscard]] planners::PlannerGraph graph() const override { return {}; }
   void restore(const planners::PlannerGraph& /*graph*/) override {}
-  void reset() override {}
 
  private:
   planners::PlanResult doPlan(const planners::PlanRequest& /*request*/) override {
@@ -293,6 +381,7 @@ class FakePlanner : public planners::ExplorationPlanner {
   planners::PlanResult doPlanHome(const planners::PlanRequest& request) override {
     return doPlan(request);
   }
+  void doReport(const planners::PathReport& /*report*/) override {}
   bool fails_;
 };
 

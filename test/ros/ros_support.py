@@ -148,7 +148,13 @@ class MadeUpRobot:
             transforms.append(transform)
         self._tf.sendTransform(transforms)
 
+    def publish_odometry(self, message):
+        self._odometry.publish(message)
+
+    def publish_cloud(self, message):
+        self._cloud.publish(message)
+
     def publish(self, odometry=None, cloud=None):
         self.publish_tf()
-        self._odometry.publish(odometry or self.odometry())
-        self._cloud.publish(cloud or self.cloud())
+        self.publish_odometry(odometry or self.odometry())
+        self.publish_cloud(cloud or self.cloud())

@@ -116,6 +116,37 @@ TEST(ExactMesh, TextWithTooFewDigitsIsSaidToBeCoarse) {
   EXPECT_NE(log.text().find("only exact to 5e+03 m"), std::string::npos) << log.text();
 }
 
+TEST(ExactMesh, ScaleAndUpActOnTheOriginTooAndStartAndBoundsFollow) {
+  const TemporaryFolder folder;
+  folder.write("m.json",
+               R"({"scale": 0.001, "up": "y", "start": [467002.3, 5420000.7, 301.1, 0],
+                   "bounds": [[467000, 5419990, 290], [467010, 5420010, 310]]})");
+  // In millimetres with y up: x, z, -y of the world.
+  const LogLines log;
+  const WorldMesh mesh =
+      loadWorldMesh(folder.write("m.obj",
+                                 "v 467000000 300000 -5420000000\nv 467004125 300000 -5420000000\n"
+                                 "v 467000000 301700 -5420002300\nf 1 2 3\n"));
+  expectExact(mesh);
+  ASSERT_TRUE(mesh.exploration_bounds);
+  EXPECT_EQ(mesh.exploration_bounds->min, Eigen::Vector3d(0, -10, -10));
+  EXPECT_EQ(mesh.exploration_bounds->max, Eigen::Vector3d(10, 10, 10));
+  EXPECT_NE(log.text().find("from (467000, 5420000, 300) to (467004.125, 5420002.3, 301.7)"),
+            std::string::npos)
+      << log.text();
+}
+
+TEST(ExactMesh, WholeFeetStayWhereTheyAre) {
+  const TemporaryFolder folder;
+  folder.write("m.json", R"({"scale": 0.3048})");
+  const WorldMesh mesh = loadWorldMesh(
+      folder.write("m.obj",
+                   "v 1532152 17782152 984\nv 1532162 17782152 984\nv 1532152 17782162 984\n"
+                   "f 1 2 3\n"));
+  const Eigen::Vector3d first = mesh.frame.toCaller(Eigen::Vector3d(mesh.bounds().min));
+  EXPECT_LT((first - 0.3048 * Eigen::Vector3d(1532152, 17782152, 984)).norm(), 1e-4);
+}
+
 TEST(ExactMesh, NearTheOriginNothingIsMovedOrSaid) {
   const TemporaryFolder folder;
   saveStl(test::boxRoom({30.0F, 8.0F, 4.0F}), folder.at("room.stl"));
@@ -123,7 +154,7 @@ TEST(ExactMesh, NearTheOriginNothingIsMovedOrSaid) {
   const WorldMesh mesh = loadWorldMesh(folder.at("room.stl"));
   EXPECT_TRUE(mesh.frame.isCallers());
   EXPECT_EQ(mesh.bounds().max, Eigen::Vector3d(15.0, 4.0, 4.0));
-  EXPECT_EQ(log.text(), "");
+  EXPECT_EQ(log.text().find("exact"), std::string::npos) << log.text();
 }
 
 TEST(ExactMesh, StartThatIsGivenDecidesTheFrameAndGeneratedVerticesFollow) {
@@ -132,7 +163,7 @@ TEST(ExactMesh, StartThatIsGivenDecidesTheFrameAndGeneratedVerticesFollow) {
   Surroundings around;
   around.start = Eigen::Vector3d(-190.0, 0.0, 2.0);
   around.range_m = 100.0;  // as of a map with very small voxels
-  const WorldMesh mesh = loadWorldMesh(folder.at("room.stl"), around);
+  const WorldMesh mesh = loadWorldMesh(folder.at("room.stl"), {}, around);
   EXPECT_EQ(mesh.frame.origin(), Eigen::Vector3d(-200.0, 0.0, 0.0));
   EXPECT_EQ(mesh.bounds().min, Eigen::Vector3d(0.0, -4.0, 0.0));
 }

@@ -348,5 +348,21 @@ TEST(Simulator, RefusesBrokenTrajectories) {
   EXPECT_THROW(sim.follow({point}), Precondition);
 }
 
+TEST(SimParams, BodyMustFitIntoTheBoxThatKeepsItClear) {
+  SimParams params;
+  RobotModel robot;
+  EXPECT_TRUE(params.problemsFor(robot).empty());
+  params.body_m.z() = 0.6;
+  ASSERT_EQ(params.problemsFor(robot).size(), 1U);
+  EXPECT_NE(params.problemsFor(robot).front().find("robot.box_m = [1.1, 1.1, 0.4]"),
+            std::string::npos);
+  robot.kind = "legged";
+  robot.box_m = {1.2, 0.85, 0.7};
+  robot.ride_height_m = params.walker.stand_height_m;
+  EXPECT_TRUE(params.problemsFor(robot).empty());
+  robot.ride_height_m += 0.2;
+  EXPECT_EQ(params.problemsFor(robot).size(), 1U);
+}
+
 }  // namespace
 }  // namespace spelunk::sim

@@ -7,6 +7,7 @@
 #include <regex>
 #include <string>
 
+#include "spelunk/common/contract.h"
 #include "spelunk/common/rng.h"
 #include "spelunk/common/robot_model.h"
 #include "spelunk/sim/leg_kinematics.h"
@@ -40,6 +41,34 @@ TEST(WalkerParams, ShippedOnesAreTheDefaultsAndComplete) {
   const Vector3d rear = T_base_sensor(robot.sensor_models[2]) * Vector3d::UnitX();
   EXPECT_LT(rear.x(), -1.0) << "the rear camera looks back";
   EXPECT_LT(rear.z(), -0.3) << "and down";
+}
+
+/// What is wrong with simulating the robot of a file with one parameter changed.
+std::string problemsOf(const std::string& robot_name, const std::string& assignment) {
+  ParamTree tree;
+  tree.addYamlFile(kConfig + "/robots/" + robot_name + ".yaml");
+  if (!assignment.empty()) tree.setAssignment(assignment, "--set");
+  const RobotModel robot = loadRobot(tree, robot_name, kConfig);
+  static_cast<void>(readSimParams(tree, robot));
+  try {
+    tree.requireClean();
+  } catch (const OutsideError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(SimulatedBody, MustFitIntoTheBoxOfTheRobot) {
+  const std::string flying = problemsOf("aerial", "robot.box_m=[0.6, 1.1, 0.4]");
+  EXPECT_NE(flying.find("robot.box_m = [0.6, 1.1, 0.4]"), std::string::npos) << flying;
+  EXPECT_NE(flying.find("sim.body_m = [0.7, 0.7, 0.3]"), std::string::npos) << flying;
+  const std::string walking = problemsOf("walker", "walker.trunk_m=[1.3, 0.5, 0.3]");
+  EXPECT_NE(walking.find("robot.box_m = [1.2, 0.85, 0.7]"), std::string::npos) << walking;
+  EXPECT_NE(walking.find("walker.trunk_m = [1.3, 0.5, 0.3]"), std::string::npos) << walking;
+}
+
+TEST(SimulatedBody, OfTheShippedRobotsFits) {
+  for (const char* name : {"aerial", "inspector", "walker"}) EXPECT_EQ(problemsOf(name, ""), "");
 }
 
 TEST(WalkerParams, AreWithoutProblems) { EXPECT_TRUE(WalkerParams{}.problems().empty()); }

@@ -21,6 +21,53 @@ inline void addBox(sim::WorldMesh& mesh, const Eigen::Vector3f& min, const Eigen
   }
 }
 
+/// Adds a rectangle across `axis` at `place`; the other two axes, in their order, go from `min` to
+/// `max`.
+inline void addRectangle(sim::WorldMesh& mesh, int axis, float place, const Eigen::Vector2f& min,
+                         const Eigen::Vector2f& max) {
+  const int base = static_cast<int>(mesh.vertices.size());
+  const int u = axis == 0 ? 1 : 0;
+  const int v = axis == 2 ? 1 : 2;
+  for (int k = 0; k < 4; ++k) {
+    Eigen::Vector3f corner;
+    corner[axis] = place;
+    corner[u] = k == 1 || k == 2 ? max.x() : min.x();
+    corner[v] = k >= 2 ? max.y() : min.y();
+    mesh.vertices.push_back(corner);
+  }
+  mesh.triangles.emplace_back(base, base + 1, base + 2);
+  mesh.triangles.emplace_back(base, base + 2, base + 3);
+}
+
+/// A gallery from the origin to (40, 5, 3.5) whose end at x = 40 is open to the outside.
+inline sim::WorldMesh galleryWithPortal() {
+  sim::WorldMesh mesh;
+  mesh.name = "gallery_with_portal";
+  addBox(mesh, Eigen::Vector3f::Zero(), {40.0F, 5.0F, 3.5F});
+  mesh.triangles.resize(mesh.triangles.size() - 2);  // the face at the greatest x comes last
+  return mesh;
+}
+
+/// A gallery of 4 x 3.5 m along x, open to the outside at x = 40; at x = 24 to 28 a branch leads
+/// off to y = 34, where it ends.
+inline sim::WorldMesh galleryWithPortalAndBranch() {
+  sim::WorldMesh mesh;
+  mesh.name = "gallery_with_portal_and_branch";
+  constexpr float kHeight = 3.5F;
+  addRectangle(mesh, 0, 0.0F, {0.0F, 0.0F}, {4.0F, kHeight});
+  addRectangle(mesh, 1, 0.0F, {0.0F, 0.0F}, {40.0F, kHeight});
+  addRectangle(mesh, 1, 4.0F, {0.0F, 0.0F}, {24.0F, kHeight});
+  addRectangle(mesh, 1, 4.0F, {28.0F, 0.0F}, {40.0F, kHeight});
+  addRectangle(mesh, 0, 24.0F, {4.0F, 0.0F}, {34.0F, kHeight});
+  addRectangle(mesh, 0, 28.0F, {4.0F, 0.0F}, {34.0F, kHeight});
+  addRectangle(mesh, 1, 34.0F, {24.0F, 0.0F}, {28.0F, kHeight});
+  for (const float z : {0.0F, kHeight}) {
+    addRectangle(mesh, 2, z, {0.0F, 0.0F}, {40.0F, 4.0F});
+    addRectangle(mesh, 2, z, {24.0F, 4.0F}, {28.0F, 34.0F});
+  }
+  return mesh;
+}
+
 /// A room seen from inside: floor at z = 0, centred at the origin, full extents `size_m`.
 inline sim::WorldMesh boxRoom(const Eigen::Vector3f& size_m) {
   sim::WorldMesh mesh;

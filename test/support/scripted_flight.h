@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <functional>
 #include <optional>
 #include <vector>
@@ -35,7 +36,7 @@ class ScriptedPlanner : public planners::ExplorationPlanner {
 
   [[nodiscard]] planners::PlannerGraph graph() const override { return {}; }
   void restore(const planners::PlannerGraph& /*graph*/) override {}
-  void reset() override {}
+  std::vector<planners::PathReport> reports;
 
  private:
   planners::PlanResult doPlan(const planners::PlanRequest& request) override {
@@ -45,6 +46,7 @@ class ScriptedPlanner : public planners::ExplorationPlanner {
   planners::PlanResult doPlanHome(const planners::PlanRequest& request) override {
     return on_home ? on_home(request) : none(planners::PlanStatus::kNoPath);
   }
+  void doReport(const planners::PathReport& report) override { reports.push_back(report); }
 };
 
 /// A coarse sensor, robot and map for grid worlds.
@@ -126,7 +128,13 @@ class ScriptedFlight {
   void setPlanTime(double seconds) { plan_time_s_ = seconds; }
   void setBudget(double seconds) { budget_s_ = seconds; }
   void muteOdometry() { odometry_ = false; }
+  void scanEvery(double period_s) {
+    scan_steps_ = static_cast<int>(std::lround(period_s / kStep_s));
+  }
   void muteScans() { scans_ = false; }
+  /// Nobody carries out what is commanded from now on, or somebody does again.
+  void ignoreCommands() { obeys_ = false; }
+  void obeyCommands() { obeys_ = true; }
   void push(const Eigen::Vector3d& offset) { offset_ += offset; }
 
   [[nodiscard]] mission::Mission& mission() { return mission_; }
@@ -157,13 +165,13 @@ class ScriptedFlight {
   void sense() {
     state_.stamp_s = now_;
     if (odometry_) mission_.onOdometry(state_);
-    if (scans_ && ++senses_ % 2 == 1)
+    if (scans_ && ++senses_ % scan_steps_ == 1)
       mission_.onScan(world_.scan(mission_.robot().sensor_models[0], state_.pose, now_));
   }
   /// An emergency stop is taken as perfect: the tests look at what is commanded.
   void obey(const std::optional<mission::Command>& command) {
     if (!command) return;
-    trajectory_ = command->trajectory;
+    if (obeys_) trajectory_ = command->trajectory;
     offset_.setZero();
     last_ = command;
     ++commands_;
@@ -182,10 +190,12 @@ class ScriptedFlight {
   std::optional<mission::Command> last_;
   double now_ = 0.0;
   int senses_ = 0;
+  int scan_steps_ = 2;  ///< Cycles a scan.
   int collisions_ = 0;
   int commands_ = 0;
   bool odometry_ = true;
   bool scans_ = true;
+  bool obeys_ = true;
 };
 
 }  // namespace spelunk::test

@@ -57,6 +57,8 @@ class ParamTree {
   void requireClean() const;
 
   [[nodiscard]] bool has(const std::string& name) const { return entries_.count(name) > 0; }
+  /// What stands before the first dot of the names, in alphabetical order.
+  [[nodiscard]] std::vector<std::string> sections() const;
   /// The text of a name, or `fallback`. Counts as read.
   std::string textOf(const std::string& name, const std::string& fallback);
 

@@ -12,6 +12,10 @@ namespace spelunk {
 
 enum class RobotKind { kAerial, kLegged };
 
+/// The body's share of the safety box: half of it is margin, on both sides together. Returns from
+/// the body are never obstacles.
+inline constexpr double kBodyShare = 0.5;
+
 /// A robot as planner, mission and simulator know it (config/robots/*.yaml, section "robot").
 struct RobotModel {
   std::string name = "aerial";
@@ -27,9 +31,11 @@ struct RobotModel {
   double yaw_acceleration_max_radps2 = 3.0;
   double braking_deceleration_mps2 = 2.5;        ///< What an emergency stop reaches for sure.
   double reaction_time_s = 0.3;                  ///< From a new obstacle seen to braking.
+  double take_off_height_m = 1.0;                ///< Above where it stood; aerial only.
   double endurance_s = 900.0;                    ///< On a full battery, at cruising speed.
-  std::vector<std::string> sensors{"lidar_16"};  ///< Names in config/sensors.
+  std::vector<std::string> sensors{"lidar_16"};  ///< Names in config/sensors or paths.
   std::vector<SensorModel> sensor_models;        ///< Filled by loadRobot.
+  std::vector<std::string> self_filter_boxes_m;  ///< Base frame; see selfFilterBoxes().
 
   template <class Visitor>
   void visit(Visitor&& field) {
@@ -49,9 +55,15 @@ struct RobotModel {
     field("braking_deceleration_mps2", braking_deceleration_mps2, Bounds{0.1, 30.0},
           "sure deceleration of a stop");
     field("reaction_time_s", reaction_time_s, Bounds{0.0, 5.0}, "from seeing to braking");
+    field("take_off_height_m", take_off_height_m, Bounds{0.1, 20.0},
+          "climbs so high above where it stood before it flies on (aerial)");
     field("endurance_s", endurance_s, Bounds{1.0, 1e6},
           "how long a full battery lasts at cruising speed", Audience::kUser);
-    field("sensors", sensors, Bounds{}, "names of files in config/sensors", Audience::kUser);
+    field("sensors", sensors, Bounds{}, "names from config/sensors or paths of files",
+          Audience::kUser);
+    field("self_filter_boxes_m", self_filter_boxes_m, Bounds{},
+          "returns from its own parts: boxes in the base frame, each centre x, y, z, size x, y, z",
+          Audience::kUser);
   }
   [[nodiscard]] std::vector<std::string> problems() const;
 };
@@ -60,6 +72,11 @@ struct RobotModel {
 
 /// How far the farthest-seeing sensor reaches, metres; 0 without sensors.
 [[nodiscard]] double longestRange(const RobotModel& robot);
+/// Up to which distance the rows of its best sensor are no farther apart than its box is high, so
+/// that a place there is known as a whole, metres; 0 without sensors.
+[[nodiscard]] double denseRange(const RobotModel& robot);
+/// The longest range of the rays of gains of its sensors, metres; 0 without sensors.
+[[nodiscard]] double longestGainRange(const RobotModel& robot);
 /// Whether a sensor of it looks all round, so that its heading does not matter.
 [[nodiscard]] bool seesAllAround(const RobotModel& robot);
 /// How far from its start a robot gets that is home again after `time_limit_s` or at the end of its
@@ -70,10 +87,12 @@ struct RobotModel {
 /// Distance to a standstill from `speed_mps`, reaction time included.
 [[nodiscard]] double brakingDistance(const RobotModel& robot, double speed_mps);
 
-/// Reads "robot.*" and each of its sensors ("sensor.<name>.*") from `tree`; sensor files are looked
-/// up in `config_dir`/sensors and lie below values already in the tree. Problems are added to
-/// the tree. Throws OutsideError if a sensor's file is missing.
+/// Reads "robot.*" and each of its sensors ("sensor.<name>.*") from `tree`; sensor files lie below
+/// values already in the tree. A sensor is a name from `config_dir`/sensors or, where that has no
+/// such file, from `folders`, or the path of a file seen from `folders`, whose stem is its name.
+/// Problems are added to the tree. Throws OutsideError if a sensor's file is missing.
 [[nodiscard]] RobotModel loadRobot(ParamTree& tree, const std::string& name,
-                                   const std::string& config_dir);
+                                   const std::string& config_dir,
+                                   const std::vector<std::string>& folders = {""});
 
 }  // namespace spelunk

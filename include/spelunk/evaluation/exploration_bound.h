@@ -1,10 +1,12 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "spelunk/common/pose.h"
 #include "spelunk/common/robot_model.h"
+#include "spelunk/evaluation/reachable_volume.h"
 #include "spelunk/sim/world_mesh.h"
 
 namespace spelunk::evaluation {
@@ -53,6 +55,9 @@ class ExplorationBound {
   ExplorationBound(const sim::WorldMesh& mesh, const Pose& start, const RobotModel& robot,
                    const BoundParams& params = {});
   ~ExplorationBound();
+
+  /// Where the mesh leaks, if it does: then the bound is one on what lies outside, too.
+  [[nodiscard]] std::optional<Leak> leak() const;
 
   /// Cubic metres at every whole second from 0 to the limit; never falling.
   [[nodiscard]] std::vector<double> over(double time_limit_s) const;

@@ -8,6 +8,7 @@
 
 #include "spelunk/common/params.h"
 #include "spelunk/evaluation/explored_volume.h"
+#include "spelunk/evaluation/reachable_volume.h"
 #include "spelunk/mission/mission.h"
 #include "spelunk/planners/exploration_planner.h"
 #include "spelunk/sim/simulator.h"
@@ -17,9 +18,9 @@ namespace spelunk::evaluation {
 /// One simulated second of a mission.
 struct TimelineRow {
   double t_s = 0.0;
-  double explored_m3 = 0.0;
-  double distance_m = 0.0;  ///< True path length flown.
-  Pose pose;                ///< True.
+  double explored_m3 = 0.0;  ///< Within the reachable space.
+  double distance_m = 0.0;   ///< True path length flown.
+  Pose pose;                 ///< True.
   double remaining_s = 0.0;
   mission::MissionState state = mission::MissionState::kIdle;
   double clearance_m = 0.0;  ///< Of the robot's body to the mesh, at most 5.
@@ -58,7 +59,9 @@ struct RunRecord {
       false;  ///< Home with endurance left and without a collision being its end.
   double mission_time_s = 0.0;
   double wall_time_s = 0.0;
-  double explored_volume_m3 = 0.0;
+  double explored_volume_m3 = 0.0;   ///< Within the reachable space.
+  double explored_outside_m3 = 0.0;  ///< Seen beyond it, through cracks and holes of the mesh.
+  ReachableVolume reachable;
   double path_length_m = 0.0;
   int collisions = 0;
   double collision_s = 0.0;
@@ -106,7 +109,8 @@ struct RunSetup {
   mission::MissionParams mission;
   terrain::TerrainParams terrain;
   Pose start;
-  AxisAlignedBox bounds;  ///< Of exploration.
+  /// Of exploration. A robot with a sensor that reports misses stays within the mesh besides.
+  AxisAlignedBox bounds;
   std::vector<NoGoZone> zones;
   std::uint64_t seed = 1;
   double time_limit_s = 900.0;  ///< Endurance by time; the battery may say less.
@@ -119,7 +123,8 @@ struct RunSetup {
 /// `delays` says so. The same setup gives the same record, wall times aside.
 class MissionRun {
  public:
-  /// Throws OutsideError if the start is in collision. `mesh` and `planner` must outlive the run.
+  /// Throws OutsideError if the start is in collision, or as reachableSpace() does. `mesh` and
+  /// `planner` must outlive the run.
   MissionRun(const RunSetup& setup, const sim::WorldMesh& mesh,
              planners::ExplorationPlanner& planner);
   ~MissionRun();
@@ -127,6 +132,12 @@ class MissionRun {
   /// Flies until the mission is done (or the last leg reached, or one not), out of endurance, or
   /// has held at one place for good. Calls `show` about every simulated second if given.
   [[nodiscard]] RunRecord fly(const std::function<void(const Progress&)>& show = {});
+
+  /// Ends the flight before its next tenth of a second, for a reason that the record names. Call it
+  /// from `show`.
+  void stop(const std::string& why);
+  /// What there is to explore, and whether the mesh leaks; known before the flight.
+  [[nodiscard]] ReachableVolume reachable() const;
 
   /// The mission, for its map and trail after the flight.
   [[nodiscard]] mission::Mission& mission();

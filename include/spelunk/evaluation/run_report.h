@@ -16,7 +16,6 @@ struct ReportHeader {
   std::string robot;
   std::uint64_t seed = 1;
   double time_limit_s = 0.0;
-  double reachable_volume_m3 = 0.0;
   LocalFrame frame{};  ///< The record's; the files are in its caller's.
 };
 

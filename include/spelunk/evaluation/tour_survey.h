@@ -23,7 +23,7 @@ struct SurveyParams {
 };
 
 /// Outlooks in a known world, short ways between them, and what a standing, level robot sees from
-/// each. Outlook 0 is the start.
+/// each; one whose sensors do not see all round turns about once. Outlook 0 is the start.
 struct TourSurvey {
   struct Way {
     std::uint32_t from = 0;
@@ -46,7 +46,8 @@ struct TourSurvey {
                                        const SurveyParams& params = {});
 
 /// Writes survey.json (speed_mps, outlooks, ways, volumes_m3) and survey_seen.bin (a row of bytes
-/// an outlook) into a folder. Throws OutsideError.
+/// an outlook) into a folder. Places are in the frame of the mesh, as those of oracle.tour are.
+/// Throws OutsideError.
 void writeSurvey(const TourSurvey& survey, const std::string& folder);
 
 }  // namespace spelunk::evaluation

@@ -38,6 +38,7 @@ class VoxelGrid {
   }
   /// Bit `offset % 64` of word `offset / 64` is the one of an offset.
   [[nodiscard]] const std::uint64_t* words() const { return words_.data(); }
+  [[nodiscard]] std::size_t wordCount() const { return words_.size(); }
   /// Sets the bit; whether it was clear before.
   bool set(std::size_t offset) {
     std::uint64_t& word = words_[offset >> 6];

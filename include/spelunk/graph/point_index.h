@@ -9,17 +9,13 @@
 namespace spelunk::graph {
 
 /// Points that only grow in number, searched by distance: a k-d forest that stays balanced while
-/// points arrive. Answers are exact.
+/// points arrive. Answers are exact, equal distances by index. A copy shares the trees, which never
+/// change, and so costs little.
 class PointIndex {
  public:
-  PointIndex();
-  ~PointIndex();
-  PointIndex(PointIndex&&) noexcept;
-  PointIndex& operator=(PointIndex&&) noexcept;
-
   void add(const Eigen::Vector3d& point);
-  [[nodiscard]] std::size_t size() const;
-  [[nodiscard]] const Eigen::Vector3d& point(std::size_t index) const;
+  [[nodiscard]] std::size_t size() const { return points_.size(); }
+  [[nodiscard]] const Eigen::Vector3d& point(std::size_t index) const { return points_[index]; }
 
   /// The index of the nearest point; empty if there is none.
   [[nodiscard]] std::optional<std::size_t> findNearest(const Eigen::Vector3d& query) const;
@@ -29,8 +25,16 @@ class PointIndex {
                                                     double radius_m) const;
 
  private:
-  struct Impl;
-  std::unique_ptr<Impl> impl_;
+  class Tree;
+
+  /// Calls `take(index, squared distance)` for every point that no tree holds yet.
+  template <class F>
+  void forEachLoose(const Eigen::Vector3d& query, F&& take) const;
+  [[nodiscard]] std::size_t looseFrom() const;
+
+  std::vector<Eigen::Vector3d> points_;
+  std::vector<std::shared_ptr<const Tree>>
+      trees_;  ///< Of points one after the other; big ones first.
 };
 
 }  // namespace spelunk::graph

@@ -15,11 +15,13 @@ struct Credibility {
 /// The map as gains should see it. A LiDAR of a few rows leaves unknown slivers everywhere: gaps
 /// between its rows on far walls, wedges above far floors, holes between the returns. Rays cast
 /// through them into rock promise volume that nobody can ever see, and a robot that believes
-/// them paces. Two steps on a copy:
-/// 1. Gaps of a column between two known voxels up to `closing_height_m` become occupied between
-///    two occupied voxels, else free.
+/// them paces. Three steps on a copy:
+/// 1. Gaps of a column between two known or silent voxels up to `closing_height_m` become free
+///    beside a free voxel, silent between two silent ones, else occupied.
 /// 2. Occupied voxels grow by `growth_m` in x and y and by one voxel in z, which shuts the holes
 ///    between the returns and leaves open what a robot could enter.
+/// 3. Silent voxels (FrozenMap::isSilent), grown as rock is, become occupied where they are
+///    unknown: rays end there and they make no frontier.
 /// Differs from the paper, which counts every unknown voxel on a ray (Dang 2020, section 4.1).
 /// The result is for gains only and says nothing about collisions.
 class CredibleMap {

@@ -24,6 +24,11 @@ class FrozenMap {
   [[nodiscard]] Occupancy at(const VoxelIndex& index) const;
   [[nodiscard]] Occupancy at(const Eigen::Vector3d& point) const { return at(indexOf(point)); }
 
+  /// Whether the voxel is unknown, was looked into from several places near by, and nothing came
+  /// back from there: an opening, or rock that swallows every ray. Unknown for all that is flown;
+  /// nothing more is to be seen in it.
+  [[nodiscard]] bool isSilent(const VoxelIndex& index) const;
+
   /// Around all known voxels; empty for an empty map.
   [[nodiscard]] AxisAlignedBox knownBounds() const;
   [[nodiscard]] std::size_t freeVoxels() const;

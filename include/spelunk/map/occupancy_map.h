@@ -8,6 +8,7 @@
 #include "spelunk/common/local_frame.h"
 #include "spelunk/common/params.h"
 #include "spelunk/common/scan.h"
+#include "spelunk/common/sensor_model.h"
 #include "spelunk/map/frozen_map.h"
 #include "spelunk/map/occupancy.h"
 
@@ -32,8 +33,9 @@ struct MapParams {
   template <class Visitor>
   void visit(Visitor&& field) {
     field("resolution_m", resolution_m, Bounds{0.02, 2.0}, "edge of a voxel", Audience::kUser);
-    field("range_max_m", range_max_m, Bounds{1.0, 300.0},
-          "longer returns only free their ray up to here", Audience::kUser);
+    field("range_max_m", range_max_m, Bounds{0.0, 500.0},
+          "longer returns only free their ray up to here; 0: as far as the sensors see",
+          Audience::kUser);
     field("range_min_m", range_min_m, Bounds{0.0, 10.0}, "nearer returns are dropped");
     field("hit_probability", hit_probability, Bounds{0.5, 1.0}, "occupancy a hit votes for");
     field("miss_probability", miss_probability, Bounds{0.0, 0.5}, "occupancy a miss votes for");
@@ -85,6 +87,13 @@ class OccupancyMap {
   /// unknown (the robot stands there, so it is). Throws Precondition if the box is not finite.
   void markFree(const AxisAlignedBox& box);
 
+  /// From now on takes note of unknown voxels that scans of these sensors look into in vain
+  /// (FrozenMap::isSilent): from several places near by, and no ray came back from there. A voxel
+  /// that becomes known is none of them any more. Scans are told apart by Scan::sensor. A sensor
+  /// that reports misses needs no such notes: its rays make free space where they meet nothing.
+  /// `robot_height_m`: rays whose rows are farther apart than that are followed no farther.
+  void watchSilence(const std::vector<SensorModel>& sensors, double robot_height_m);
+
   [[nodiscard]] Occupancy at(const Eigen::Vector3d& point) const;
   [[nodiscard]] const MapParams& params() const;
 
@@ -104,6 +113,13 @@ class OccupancyMap {
   /// Replaces the content by a .bt or .ot file. Throws OutsideError if it is missing, not an
   /// octree, or of another resolution; the map is then unchanged.
   void load(const std::string& path);
+
+  /// Writes the silent voxels as the occupied ones of a .bt file; frame and errors as those of
+  /// save().
+  void saveSilence(const std::string& path, const LocalFrame& frame = {}) const;
+
+  /// Takes up the silent voxels of such a file, those so far kept; errors as those of load().
+  void loadSilence(const std::string& path);
 
   void clear();
   [[nodiscard]] std::size_t memoryBytes() const;

@@ -11,7 +11,7 @@
 namespace spelunk::map {
 
 /// What the sensors would see from one configuration, counted in voxels along their rays. Rays end
-/// at the first occupied voxel or at gain_range_m.
+/// at the first occupied voxel or at gainRange().
 struct VolumetricGain {
   int unknown_voxels = 0;
   int free_voxels = 0;
@@ -47,6 +47,9 @@ class GainEvaluator {
 
   /// The longest ray of any sensor, metres: how far a window must reach beyond the positions.
   [[nodiscard]] double reach() const;
+
+  /// The same up and down alone: how much higher or lower than the position a ray may end.
+  [[nodiscard]] double reachInHeight() const;
 
  private:
   struct Impl;

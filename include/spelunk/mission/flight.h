@@ -66,7 +66,13 @@ class Flight {
   /// The rest of the line from where a robot with legs really is, to be timed anew; none if it is
   /// in time, or was timed anew just before.
   [[nodiscard]] std::optional<Leg> lateRest(const Pose& here, double now_s);
+  /// Whether the robot is at the end of its path.
   [[nodiscard]] bool hasArrived(const Pose& here, double now_s) const;
+  /// Whether the path is over in time, and for some seconds more, without the robot at its end.
+  [[nodiscard]] bool isOverdue(const Pose& here, double now_s) const;
+  /// Whether the robot has not moved at all since it was last sent off from a standstill, though it
+  /// should have: nobody carries out what is commanded.
+  [[nodiscard]] bool isIgnored(const Pose& here, double now_s) const;
   void noteOccupied(const std::vector<map::VoxelIndex>& voxels, double now_s);
   /// Metres to something new on the path before which the robot has to stop now; none if there is
   /// no such thing.
@@ -88,6 +94,8 @@ class Flight {
   std::optional<Command> command_;
   double hold_since_s_ = 0.0;
   double next_retime_s_ = 0.0;
+  Eigen::Vector3d sent_from_ = Eigen::Vector3d::Zero();  ///< Where it last stood, sent off.
+  int retimed_in_place_ = 0;                             ///< Since it last moved.
 };
 
 }  // namespace spelunk::mission

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
@@ -10,6 +11,7 @@
 #include "spelunk/map/occupancy_map.h"
 #include "spelunk/mission/answer.h"
 #include "spelunk/mission/command.h"
+#include "spelunk/mission/input_notes.h"
 #include "spelunk/mission/mission_params.h"
 #include "spelunk/mission/mission_status.h"
 #include "spelunk/mission/plan_job.h"
@@ -45,6 +47,9 @@ class Mission {
   map::MapUpdate onScan(const Scan& scan);  ///< Into the map; re-checks path and way home.
   void onRemaining(double remaining_s);     ///< From the battery; else the time budget counts.
 
+  /// What the owner knows about inputs that the mission cannot see; replaces what it said before.
+  void noteInputs(const InputNotes& notes);
+
   // --- What people ask for.
   Answer start();
   Answer pause();
@@ -56,17 +61,14 @@ class Mission {
   /// Whether the robot may be sent to a point now, as far as that can be told without a plan: it
   /// stands ready, and even the straight way there and home fits the endurance.
   [[nodiscard]] Answer mayGoTo(const Eigen::Vector3d& point);
-  /// What navigation is to be asked for a way from here to a point (world frame, where the robot's
-  /// base is to be); none before the first good odometry. What a robot at its start stands in
-  /// counts as free from then on. The caller sets `rng`.
-  [[nodiscard]] std::optional<navigation::NavigationQuery> goToQuery(const Eigen::Vector3d& point);
-  /// Flies to the goal of a query, beginning with the path it was answered by; only if mayGoTo()
-  /// and only if the answer holds a path. Only what lies in known free space is flown, checked like
-  /// any other path, way home included. More of the path is taken up as it comes into view; where
-  /// the path turns out blocked, or the robot has left it, the mission stops and asks for a new one
-  /// by a job. Holds at the end; see MissionStatus::go_to.
-  Answer goTo(const navigation::NavigationParams& params, const navigation::NavigationQuery& query,
-              const navigation::NavigationAnswer& answer);
+  /// Flies to a point (world frame, where the robot's base is to be); only if mayGoTo(). The way is
+  /// planned by jobs, the first one like all others: takeJob() hands it out at once. Only what lies
+  /// in known free space is flown, checked like any other path, way home included. More of the path
+  /// is taken up as it comes into view; where the path turns out blocked, or the robot has left it,
+  /// the mission stops and asks for a new one. Holds at the end, and where no way is found; see
+  /// MissionStatus::go_to. `time_limit_s`: wall time of one plan, for flight only.
+  Answer goTo(const Eigen::Vector3d& point, const navigation::NavigationParams& params,
+              double time_limit_s = std::numeric_limits<double>::infinity());
   /// A plan's request from where the robot is, for plans that are only looked at; none before the
   /// first good odometry.
   [[nodiscard]] std::optional<planners::PlanRequest> requestHere(double now_s);
@@ -78,6 +80,8 @@ class Mission {
   [[nodiscard]] std::optional<PlanJob> takeJob();
   /// Checks an outcome and, if it holds, returns the new command.
   std::optional<Command> accept(const PlanOutcome& outcome, double now_s);
+  /// The same; the next tick returns the command.
+  void take(const PlanOutcome& outcome, double now_s);
 
   // --- What there is to see.
   [[nodiscard]] MissionStatus status() const;

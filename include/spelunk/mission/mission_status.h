@@ -8,7 +8,17 @@
 
 namespace spelunk::mission {
 
-enum class MissionState { kIdle, kExplore, kReposition, kHome, kHold, kDone, kEStop };
+enum class MissionState {
+  kIdle,
+  kTakeOff,
+  kExplore,
+  kReposition,
+  kHome,
+  kLand,
+  kHold,
+  kDone,
+  kEStop
+};
 [[nodiscard]] const char* toText(MissionState state);  ///< "Idle", "Explore", ...
 
 enum class GoToOutcome { kNone, kUnderway, kReached, kUnreachable, kAborted };

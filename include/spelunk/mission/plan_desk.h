@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "spelunk/common/rng.h"
+#include "spelunk/map/openings.h"
 #include "spelunk/mission/basis.h"
 #include "spelunk/mission/plan_job.h"
 #include "spelunk/mission/transitions.h"
@@ -31,7 +32,8 @@ struct RunningJob {
 };
 
 /// What is asked of whom, and when: one plan at a time, begun so early that its answer comes before
-/// the robot is where it takes over. It remembers what became of the planner's last path.
+/// the robot is where it takes over. It collects what became of the planner's paths and has it told
+/// to the planner with the next job.
 class PlanDesk {
  public:
   PlanDesk(const Basis& basis, const Rng& rng) : basis_(basis), rng_(rng) {}
@@ -69,12 +71,17 @@ class PlanDesk {
   // --- Answers.
   /// The job that an outcome belongs to; none if it is not wanted any more.
   [[nodiscard]] std::optional<RunningJob> finish(const PlanOutcome& outcome, double now_s);
-  void noteAccepted(double now_s);
+  /// The planner's path is flown from now on.
+  void noteAccepted(const planners::PlanResult& plan, double now_s);
   void noteFlown() { asks_navigation_ = false; }
-  /// What became of the planner's path that was flown, or was refused.
+  void noteRefused(const planners::PlanResult& plan, planners::PathOutcome outcome,
+                   const std::string& why);
+  /// The planner has no path: what it found out about that counts.
+  void noteNone(const planners::PlanResult& plan);
+  /// What became of the planner's path that was flown.
   void noteOutcome(planners::PathOutcome outcome, const std::string& reason);
-  void noteRefused(planners::PathOutcome outcome, const std::string& why);
-  void noteReached() { last_outcome_ = planners::PathOutcome::kReached; }
+  /// What was to be told to the planner is about a past that was replaced by a saved one.
+  void forgetReports() { reports_.clear(); }
   void noteSecondLook(const planners::PlanResult& plan, double now_s);
   /// A path was refused while another one is flown.
   void retryInFlight(double now_s);
@@ -85,6 +92,9 @@ class PlanDesk {
   void closeWayHomeRequest() { wants_way_home_ = false; }
   /// Nobody knew another way home.
   void noteNoWayHome(const RunningJob& job, double now_s);
+
+  /// Openings that the robot leaves behind on its way home.
+  void noteOpenings(const std::vector<map::Opening>& openings);
 
   // --- What there is to see.
   struct Counts {
@@ -100,6 +110,7 @@ class PlanDesk {
   }
 
  private:
+  void gatherRemaining();
   [[nodiscard]] bool wantsPlanInFlight(double now_s) const;
   [[nodiscard]] bool wantsSecondLook(const WayHome& way_home, double now_s) const;
   [[nodiscard]] RunningJob begin(RunningJob::Kind kind, double now_s);
@@ -120,11 +131,13 @@ class PlanDesk {
   bool wants_way_home_ = false;
   bool may_look_again_ = false;  ///< On this way home.
   double next_look_s_ = 0.0;
-  bool asks_navigation_ = false;  ///< The next way home is the mission's own search.
-  planners::PathOutcome last_outcome_ = planners::PathOutcome::kNone;
-  std::string last_reason_;
+  bool asks_navigation_ = false;               ///< The next way home is the mission's own search.
+  std::vector<planners::PathReport> reports_;  ///< Not told to the planner yet.
+  bool flies_reported_path_ = false;  ///< Whether the path that was reported last is the one flown.
   Counts counts_;
-  std::vector<planners::RemainingTarget> remaining_;
+  std::vector<planners::RemainingTarget> planner_left_;  ///< What the newest plan named.
+  std::vector<planners::RemainingTarget> openings_;
+  std::vector<planners::RemainingTarget> remaining_;  ///< Both.
 };
 
 }  // namespace spelunk::mission

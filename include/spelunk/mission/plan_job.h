@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <variant>
+#include <vector>
 
 #include "spelunk/mission/way_home_search.h"
 #include "spelunk/navigation/navigator.h"
@@ -29,6 +30,7 @@ struct PointJob {
 /// WayHomeSearch is the way home by navigation, which the planner is not asked for.
 struct PlanJob {
   std::uint64_t number = 0;
+  std::vector<planners::PathReport> reports;  ///< For the planner, before anything is asked of it.
   std::variant<ExplorationJob, WayHomeJob, WayHomeSearch, PointJob> work;
 };
 

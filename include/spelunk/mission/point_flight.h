@@ -42,7 +42,8 @@ class PointFlight {
   [[nodiscard]] PointStep take(const navigation::NavigationAnswer& answer, const WayHome& way_home,
                                double now_s);
   [[nodiscard]] PointStep step(const WayHome& way_home, double now_s);
-  /// The path in execution ended before its end.
+  /// The path in execution ended before its end; kNone: nobody has flown it, and so it does not
+  /// count as a plan that led nowhere.
   void noteHeld(planners::PathOutcome outcome);
   void noteOccupied(const std::vector<map::VoxelIndex>& voxels);
   /// The work of a plan from here, on a map as it is now.

@@ -52,6 +52,8 @@ class RobotWatch {
 
   RobotModel robot_;
   InputGuard input_;
+  double scan_period_s_;                    ///< Of the fastest sensor.
+  double scan_silence_s_;                   ///< Longer silence means that the sensors have stopped.
   std::optional<std::string> input_fault_;  ///< Of the newest odometry.
   std::optional<double> last_odometry_s_;   ///< When it came in.
   Pose last_pose_;                          ///< Of the newest good odometry.
@@ -59,6 +61,7 @@ class RobotWatch {
   Eigen::Isometry3d T_world_base_ = Eigen::Isometry3d::Identity();
   std::optional<double> last_scan_s_;  ///< When it came in.
   double newest_scan_s_ = 0.0;         ///< When it was taken.
+  double newest_mapped_s_ = 0.0;       ///< The same of the newest one that was mapped.
   int mapped_scans_ = 0;
   std::map<std::string, ScanThinning> thinnings_;  ///< By sensor.
   std::optional<double> tilted_since_s_;

@@ -13,6 +13,12 @@
 
 namespace spelunk::mission {
 
+/// Occupied voxels that a body touches.
+struct Contact {
+  int voxels = 0;
+  Eigen::Vector3d nearest = Eigen::Vector3d::Zero();  ///< Of their centres; if there are any.
+};
+
 /// What the robot may move through: the map as it is now, the zones, and the ground under a robot
 /// with legs. Paths are those of the centre of the robot's box.
 class SafeSpace {
@@ -48,8 +54,8 @@ class SafeSpace {
   [[nodiscard]] HomeGraph::Footing footing() const;
   /// Whether legs find footing along a path; always for robots that fly.
   [[nodiscard]] bool isWalkable(const Path& path);
-  /// Whether the robot's body touches something occupied.
-  [[nodiscard]] bool collidesAt(const Eigen::Vector3d& centre);
+  /// What occupied voxels the robot's body touches.
+  [[nodiscard]] Contact contactAt(const Eigen::Vector3d& centre);
 
  private:
   [[nodiscard]] navigation::PathCheck checkLeaving(const Path& path, const Eigen::Vector3d& box,

@@ -30,15 +30,20 @@ enum class PathKind { kLocal, kReposition, kHome };
 [[nodiscard]] const char* toText(PlanStatus status);
 [[nodiscard]] const char* toText(PathKind kind);
 
-/// What became of the path of an earlier plan; told to the planner with the next request.
+/// What became of a path; told to the planner by report().
 enum class PathOutcome {
-  kNone,            ///< There was no earlier path.
+  kNone,            ///< There was no path, or nobody has flown it.
   kReached,         ///< Flown to its end.
-  kReplaced,        ///< A newer plan took over before its end, as intended.
+  kReplaced,        ///< It is being flown; a newer one will take over before its end, as intended.
   kBlocked,         ///< A new obstacle (or zone) cut it.
   kDeviated,        ///< The robot left it.
   kRejectedUnsafe,  ///< mission's own check refused it.
   kRejectedBudget   ///< No way home from its end would have fitted the endurance.
+};
+
+/// What a planner would remember if a plan of its were taken; only that planner looks into it.
+struct PlanMemory {
+  virtual ~PlanMemory() = default;
 };
 
 struct StampedPose {
@@ -62,9 +67,10 @@ struct PlanRequest {
   double remaining_s = 1e9;  ///< Endurance left at `pose`, the reserve already taken off.
   AxisAlignedBox bounds;     ///< Global bounds of exploration.
   std::vector<NoGoZone> zones;
-  std::vector<StampedPose> trail;  ///< Where the robot was, oldest first, about 1 m or 1 s apart.
-  PathOutcome last_outcome = PathOutcome::kNone;  ///< Of the newest path this planner proposed.
-  std::string last_reason;
+  std::uint64_t zones_revision = 0;  ///< Another number whenever the zones have changed.
+  std::vector<StampedPose> trail;    ///< Where the robot was, oldest first, about 1 m or 1 s apart.
+  /// Of a plan that is to count as taken: for the way home from the end of its path. Else none.
+  std::shared_ptr<const PlanMemory> after;
   PlanBudget budget;
   Rng rng{0};  ///< This plan's own stream.
 };
@@ -109,6 +115,15 @@ struct PlanResult {
   std::string reason;  ///< One sentence for people: why this path, or why none.
   PlanStats stats;
   std::vector<RemainingTarget> remaining;
+  std::shared_ptr<const PlanMemory> memory;  ///< To be handed back by report() if it is taken.
+};
+
+/// What became of a plan: it is taken (its path is flown, or there is none), or its path is
+/// refused, or the path that was reported last has ended.
+struct PathReport {
+  std::shared_ptr<const PlanMemory> plan;  ///< None for the path that was reported last.
+  PathOutcome outcome = PathOutcome::kNone;
+  std::string reason;
 };
 
 /// A planner's graph for display, saving and tests.
@@ -127,7 +142,10 @@ struct PlannerGraph {
 };
 [[nodiscard]] PlannerGraph moved(PlannerGraph graph, const Eigen::Vector3d& by);
 
-/// The interface of every exploration planner. Not thread-safe: one caller at a time.
+/// The interface of every exploration planner. Proposing is apart from taking: plan() and
+/// planHome() change nothing that a later plan depends on, so anybody may look at a plan at any
+/// time; what a planner learns it learns by report(). A new planner has learnt nothing. Not
+/// thread-safe: one caller at a time.
 class ExplorationPlanner {
  public:
   virtual ~ExplorationPlanner() = default;
@@ -139,17 +157,18 @@ class ExplorationPlanner {
   /// The planner's best way home from `request.pose`; kind is kHome. Same contract as plan().
   [[nodiscard]] PlanResult planHome(const PlanRequest& request);
 
+  /// Tells what became of a plan of this planner. Throws Precondition for another one's.
+  void report(const PathReport& report) { doReport(report); }
+
   [[nodiscard]] virtual PlannerGraph graph() const = 0;
 
   /// Takes up a graph saved earlier by graph(); layers it does not know are ignored.
   virtual void restore(const PlannerGraph& graph) = 0;
 
-  /// Forgets everything learnt; parameters stay.
-  virtual void reset() = 0;
-
  private:
   virtual PlanResult doPlan(const PlanRequest& request) = 0;
   virtual PlanResult doPlanHome(const PlanRequest& request) = 0;
+  virtual void doReport(const PathReport& report) = 0;
 };
 
 }  // namespace spelunk::planners

@@ -2,7 +2,7 @@
 
 #include <sensor_msgs/PointCloud2.h>
 
-#include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <string>
 #include <vector>
 
@@ -22,6 +22,7 @@ struct CloudParams {
   double outlier_stddevs = 2.0;
   double outlier_radius_m = 0.5;
   double voxel_size_m = 0.0;
+  std::string registered_sensor;
 
   template <class Visitor>
   void visit(Visitor&& field) {
@@ -37,15 +38,25 @@ struct CloudParams {
           "radius: where neighbours are looked for");
     field("voxel_size_m", voxel_size_m, Bounds{0.0, 5.0},
           "one point a voxel for dense sensors; 0: off");
+    field("registered_sensor", registered_sensor, Bounds{},
+          "which of robot.sensors took clouds that come in a fixed frame; empty: the only LiDAR");
   }
   [[nodiscard]] std::vector<std::string> problems() const;
 };
 
-/// The points of a cloud in its own frame, those that are not finite left out. Fields x, y, z may
-/// be float32 or float64 at any offset. Refused: missing fields, other types, big-endian data, a
-/// layout that does not fit the data, no points at all.
+/// The points of a cloud, brought into the sensor's frame in double precision, those that are not
+/// finite left out. Fields x, y, z may
+/// be float32 or float64 at any offset, in either order of bytes. Steps that do not fit the data
+/// are taken from its size where that allows one answer only. Refused: missing fields, other
+/// types, a layout that does not fit the data, no points at all; `problem` continues "a cloud ..."
+/// and ends with the remedy.
 [[nodiscard]] FromMsg<std::vector<Eigen::Vector3f>> pointsFromMsg(
-    const sensor_msgs::PointCloud2& cloud);
+    const sensor_msgs::PointCloud2& cloud,
+    const Eigen::Isometry3d& T_sensor_cloud = Eigen::Isometry3d::Identity());
+
+/// How far the points of a cloud may lie from where they were meant to, metres: half of the
+/// distance between neighbouring 32-bit numbers at coordinates of `at_m`; 0 for 64-bit ones.
+[[nodiscard]] double coordinateError(const sensor_msgs::PointCloud2& cloud, double at_m);
 
 /// `points` after the filters that `params` switches on: outliers first, then the voxel grid.
 [[nodiscard]] std::vector<Eigen::Vector3f> filtered(std::vector<Eigen::Vector3f> points,

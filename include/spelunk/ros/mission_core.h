@@ -43,6 +43,9 @@ struct MissionCore {
   double reach_m;  ///< See LocalFrame::around().
   double range_m;
   InputWatch watch;
+  std::string clock_problem;        ///< Of the ROS clock; empty while it runs.
+  std::string doubt;                ///< As mission::InputNotes has it.
+  std::string flaw;                 ///< The same.
   std::optional<RobotState> robot;  ///< The newest odometry that was good, mission time.
   planners::PathKind kind = planners::PathKind::kLocal;  ///< Of the active path.
   bool wants_start = false;       ///< Start as soon as the mission accepts it.
@@ -62,6 +65,9 @@ using GuardedCore = Guarded<MissionCore>;
 
 /// Mission time of `now`. If the ROS clock jumped back, the robot holds and it is said so.
 double missionTime(MissionCore& core, const ::ros::Time& now);
+
+/// Tells the mission what is known of its inputs now.
+void noteInputs(MissionCore& core, double now_s);
 
 /// Runs a callback. If it throws, the error is logged and the robot holds.
 template <class F>

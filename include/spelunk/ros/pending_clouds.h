@@ -2,27 +2,28 @@
 
 #include <sensor_msgs/PointCloud2.h>
 
-#include <Eigen/Geometry>
 #include <deque>
 #include <functional>
 #include <string>
 #include <vector>
 
 #include "spelunk/ros/cloud_filter.h"
+#include "spelunk/ros/cloud_places.h"
 
 namespace spelunk::bridge {
 
-/// World from the frame of a message at its stamp, or why there is none.
-using TransformLookup =
-    std::function<FromMsg<Eigen::Isometry3d>(const std::string& frame, const ::ros::Time& stamp)>;
+/// Where a cloud in `frame` (no leading slash) was taken from at its stamp, or why that is not
+/// known.
+using PlaceLookup =
+    std::function<FromMsg<CloudPlace>(const std::string& frame, const ::ros::Time& stamp)>;
 
-/// Clouds that wait for the transform at their stamp, oldest first. Times are ROS time.
+/// Clouds that wait until it is known where they were taken from, oldest first. Times are ROS time.
 class PendingClouds {
  public:
-  /// A cloud with its pose, or one that had to be given up.
+  /// A cloud with its place, or one that had to be given up.
   struct Item {
     sensor_msgs::PointCloud2::ConstPtr cloud;
-    Eigen::Isometry3d T_world_sensor = Eigen::Isometry3d::Identity();
+    CloudPlace place;
     std::string problem;  ///< Empty for a good cloud; else the thing and the remedy.
   };
 
@@ -33,8 +34,8 @@ class PendingClouds {
   [[nodiscard]] std::string push(const sensor_msgs::PointCloud2::ConstPtr& cloud,
                                  const ::ros::Time& now);
 
-  /// The clouds whose transform is there, and those that waited too long.
-  [[nodiscard]] std::vector<Item> take(const TransformLookup& lookup, const ::ros::Time& now);
+  /// The clouds whose place is known, and those that waited too long.
+  [[nodiscard]] std::vector<Item> take(const PlaceLookup& lookup, const ::ros::Time& now);
 
   void clear() { waiting_.clear(); }
   [[nodiscard]] std::size_t size() const { return waiting_.size(); }

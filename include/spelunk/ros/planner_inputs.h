@@ -8,9 +8,12 @@
 #include <sensor_msgs/PointCloud2.h>
 #include <tf2_ros/buffer.h>
 
+#include <optional>
 #include <string>
 
+#include "spelunk/common/self_returns.h"
 #include "spelunk/ros/cloud_filter.h"
+#include "spelunk/ros/cloud_places.h"
 #include "spelunk/ros/mission_core.h"
 #include "spelunk/ros/node_params.h"
 #include "spelunk/ros/pending_clouds.h"
@@ -37,26 +40,38 @@ class PlannerInputs {
   void forgetAfterClockJump();
   void sayWhichSensorsAreMissing();
   void sayIfOdometryComesFromTwo();
+  void expectInputs();
   void enterReadyClouds(const ::ros::Time& now);
+  void giveUp(const PendingClouds::Item& item, const ::ros::Time& now);
   void enter(const PendingClouds::Item& item);
-  [[nodiscard]] std::string stampProblem(const ::ros::Time& stamp, const ::ros::Time& now) const;
+  void sayIfCoarse(const sensor_msgs::PointCloud2& cloud, const CloudPlace& place);
+  void takeOver(const nav_msgs::Odometry& odometry, const RobotState& state);
+  [[nodiscard]] bool comesTooLate(const ::ros::Time& stamp);
   [[nodiscard]] FromMsg<Eigen::Isometry3d> findTransform(const std::string& frame,
                                                          const ::ros::Time& stamp) const;
   /// Whether tf knows the frame at any time.
   [[nodiscard]] bool hasTransform(const std::string& frame) const;
   void reportSenders(TfInput::SentByTwo what, const std::string& text);
+  [[nodiscard]] FrameTree tree() const;
+  void reportCloud(const std::string& key, const std::string& text);
+  void reportOdometry(const std::string& key, const std::string& text);
   void report(const std::string& key, const std::string& text);
 
   PlannerNodeParams params_;
   CloudParams cloud_params_;
   GuardedCore& core_;
   double endurance_s_;
+  double resolution_m_;  ///< Of the map.
   PendingClouds pending_;
   SensorWatch sensors_;
   std::uint64_t jumps_seen_ = 0;
   bool two_odometries_said_ = false;
-  bool tf_was_there_ =
-      false;  ///< Clouds older than the first transform are dropped without a word.
+  CloudPlaces places_;
+  SelfReturns self_returns_;
+  std::optional<::ros::Time> first_used_;  ///< Stamp of a cloud.
+  std::optional<::ros::Time> first_given_up_;
+  ::ros::Time newest_odometry_;
+  int late_odometry_ = 0;  ///< Messages in a row that were older than one before.
   InputWatch::Wanted cloud_input_{};
   InputWatch::Wanted odometry_input_{};
 

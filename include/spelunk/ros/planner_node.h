@@ -10,6 +10,7 @@
 #include <optional>
 #include <string>
 
+#include "spelunk/ros/clock_watch.h"
 #include "spelunk/ros/mission_core.h"
 #include "spelunk/ros/node_params.h"
 #include "spelunk/ros/node_setup.h"
@@ -45,6 +46,8 @@ class PlannerNode {
   void publishFrameIfNew(const MissionCore& core);
   void publishStatusIfChanged(MissionCore& core, double now_s);
   void publishStatus();
+  void publishOctomap();
+  void checkClock(MissionCore& core, const ::ros::Time& now);
   void publishViews();
   [[nodiscard]] MissionView viewOf(MissionCore& core) const;
   void publish(MissionCore& core, const mission::Command& command);
@@ -60,6 +63,8 @@ class PlannerNode {
   std::optional<LocalFrame> said_frame_;  ///< The newest one told to tf; with the core locked.
   std::string last_said_;  ///< State and reason of the newest status; with the core locked.
   Throttle start_refusals_;
+  ClockWatch clock_watch_;               ///< With the core locked.
+  Throttle clock_throttle_;              ///< In real time; with the core locked.
   std::optional<double> waits_since_s_;  ///< To start; mission time; with the core locked.
   PlanWorker worker_;
   PlannerInputs inputs_;
@@ -67,6 +72,7 @@ class PlannerNode {
   ::ros::Timer tick_timer_;
   ::ros::WallTimer status_timer_;
   ::ros::WallTimer view_timer_;
+  ::ros::WallTimer octomap_timer_;
   ::ros::AsyncSpinner view_spinner_;
 };
 

@@ -62,6 +62,7 @@ class PlannerOutputs {
   void publishMapCloud(const MissionView& view, const ::ros::Time& now);
   /// `elevation`, and in the world frame `traversability`; nothing for robots without legs.
   void publishTerrain(const MissionView& view, const ::ros::Time& now);
+  /// `octomap` and `octomap_full`, latched.
   void publishOctomap(map::OccupancyMap& map, const LocalFrame& frame, const ::ros::Time& now);
 
   [[nodiscard]] bool wantsGraph() const { return graph_.getNumSubscribers() > 0; }
@@ -70,7 +71,9 @@ class PlannerOutputs {
   [[nodiscard]] bool wantsTerrain() const {
     return elevation_.getNumSubscribers() > 0 || traversability_.getNumSubscribers() > 0;
   }
-  [[nodiscard]] bool wantsOctomap() const;  ///< Never, where octomap_msgs is not installed.
+  [[nodiscard]] bool wantsOctomap() const {
+    return octomap_.getNumSubscribers() > 0 || octomap_full_.getNumSubscribers() > 0;
+  }
 
  private:
   /// The frame id of what is in a mission's frame.
@@ -90,6 +93,7 @@ class PlannerOutputs {
   ::ros::Publisher elevation_;
   ::ros::Publisher traversability_;
   ::ros::Publisher octomap_;
+  ::ros::Publisher octomap_full_;
   MarkerBuilder marker_builder_;
 };
 

@@ -14,8 +14,11 @@ namespace spelunk::sim {
 /// One LiDAR or depth camera on the robot. All rays of a scan leave at the scan's instant.
 class RangeSensor {
  public:
-  /// `dust_returns` is the mean share of rays that end early in dust.
-  RangeSensor(const SensorModel& model, double dust_returns, const Rng& rng);
+  /// `dust_returns` is the mean share of rays that end early in dust. A hoop of radius
+  /// `hoop_radius_m` around the base's vertical axis, at the sensor's height, ends the rays that
+  /// meet it; 0: there is none.
+  RangeSensor(const SensorModel& model, double dust_returns, const Rng& rng,
+              double hoop_radius_m = 0.0);
 
   /// Time of the next scan, seconds: the n-th lies at n / rate.
   [[nodiscard]] double nextScanTime() const;
@@ -38,6 +41,7 @@ class RangeSensor {
   std::uint64_t key_;
   Eigen::Isometry3d T_base_sensor_;
   std::shared_ptr<const std::vector<Eigen::Vector3f>> directions_;
+  std::vector<float> hoop_ranges_;                 ///< One a direction; empty without a hoop.
   std::vector<Eigen::Vector3f> world_directions_;  ///< Scratch.
   std::uint64_t scans_taken_ = 0;
   std::optional<ScanThinning> thinning_;

@@ -32,12 +32,15 @@ struct SimParams {
   double motion_power_w_per_mps2 = 12.0;  ///< Added times speed squared.
   double battery_wh = 0.0;                ///< 0: what robot.endurance_s at cruising speed needs.
   double dust_returns = 0.0;              ///< Mean share of rays that end early in dust.
+  double self_returns_m = 0.0;            ///< Radius of a hoop around the robot that it sees.
   double odometry_drift = 0.0;            ///< Metres of drift a metre flown (1 sigma).
   double odometry_noise_m = 0.0;          ///< White noise of the position (1 sigma).
   WalkerParams walker;                    ///< Body of a legged robot (section "walker").
 
   /// Broken rules between fields, one text each; empty if all is well. The walker's are apart.
   [[nodiscard]] std::vector<std::string> problems() const;
+  /// Where the simulated body contradicts what planner and mission know of the robot.
+  [[nodiscard]] std::vector<std::string> problemsFor(const RobotModel& robot) const;
 
   template <class Visitor>
   void visit(Visitor&& field) {
@@ -55,6 +58,8 @@ struct SimParams {
           "times speed squared");
     field("battery_wh", battery_wh, Bounds{0.0, 1e5}, "0: from robot.endurance_s");
     field("dust_returns", dust_returns, Bounds{0.0, 1.0}, "share of rays that dust returns");
+    field("self_returns_m", self_returns_m, Bounds{0.0, 5.0},
+          "radius of a hoop of the robot, 0.1 m high, in the way of its sensors; 0: none");
     field("odometry_drift", odometry_drift, Bounds{0.0, 0.2}, "m a metre, 1 sigma");
     field("odometry_noise_m", odometry_noise_m, Bounds{0.0, 1.0}, "white, 1 sigma");
   }
@@ -62,6 +67,8 @@ struct SimParams {
 
 /// Reads the sections "sim" and "walker"; problems are added to the tree.
 [[nodiscard]] SimParams readSimParams(ParamTree& tree);
+/// The same for a robot that is to be simulated: its body must fit into the box it plans with.
+[[nodiscard]] SimParams readSimParams(ParamTree& tree, const RobotModel& robot);
 
 struct BatteryState {
   double energy_wh = 0.0;

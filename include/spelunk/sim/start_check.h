@@ -8,7 +8,9 @@
 
 namespace spelunk::sim {
 
-/// "(x, y, z)" for messages, in the frame of the mesh file.
+/// "(x, y, z)" for messages, to the millimetre.
+[[nodiscard]] std::string textOf(const Eigen::Vector3d& position);
+/// The same of a place in the frame of the mesh, in the world frame.
 [[nodiscard]] std::string textOf(const Eigen::Vector3d& position, const WorldMesh& mesh);
 
 /// Throws OutsideError if `start` is not finite or outside the mesh's bounds.

@@ -34,11 +34,12 @@ struct ElevationParams {
     field("reach_m", reach_m, Bounds{0.5, 20.0}, "from the robot to the map's edge",
           Audience::kUser);
     field("base_height_m", base_height_m, Bounds{0.0, 3.0},
-          "of the base above the ground when standing", Audience::kUser);
+          "of the base above the ground when standing; 0: robot.ride_height_m", Audience::kUser);
     field("clearance_m", clearance_m, Bounds{0.1, 10.0},
           "what hangs higher above the ground is no obstacle", Audience::kUser);
     field("body_m", body_m, Bounds{0.0, 10.0},
-          "length, width, height around the base: returns inside are the robot's own");
+          "length, width, height around the base: returns inside are the robot's own; "
+          "left out: robot.box_m");
     field(
         "climb_deg", climb_deg, Bounds{0.0, 60.0},
         "ground rises at most so much from the robot; what is higher by the clearance is ceiling");

@@ -20,8 +20,10 @@ struct FootprintParams {
   template <class Visitor>
   void visit(Visitor&& field) {
     field("footprint_length_m", footprint_length_m, Bounds{0.05, 10.0},
-          "of the rectangle that must find good ground, along the heading", Audience::kUser);
-    field("footprint_width_m", footprint_width_m, Bounds{0.05, 10.0}, "across", Audience::kUser);
+          "of the rectangle that must find good ground, along the heading; left out: robot.box_m",
+          Audience::kUser);
+    field("footprint_width_m", footprint_width_m, Bounds{0.05, 10.0},
+          "across; left out: robot.box_m", Audience::kUser);
     field("pose_spacing_m", pose_spacing_m, Bounds{0.01, 1.0}, "between poses looked at");
     field("bad_area_max_m2", bad_area_max_m2, Bounds{0.0, 1.0},
           "untraversable ground in a footprint that is taken for noise");

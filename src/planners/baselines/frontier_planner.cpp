@@ -57,6 +57,7 @@ struct FrontierPlanner::Search {
 
   FrontierPlanner& planner;
   const PlanRequest& request;
+  FrontierMemory memory;  ///< A copy: what it learns counts if the plan is taken.
   const FrontierPlannerParams& params;
   KnownSpace space;
   KnownSpace ways_home;
@@ -74,6 +75,7 @@ struct FrontierPlanner::Search {
   Search(FrontierPlanner& owner, const PlanRequest& asked)
       : planner(owner),
         request(asked),
+        memory(owner.recall(asked)),
         params(owner.params_),
         space(asked, owner.robot_, owner.navigator_, owner.boxes_),
         ways_home(asked, owner.robot_, owner.home_navigator_, owner.boxes_) {}
@@ -84,7 +86,7 @@ struct FrontierPlanner::Search {
     const StartCheck start = checkStart(request, space.free());
     if (!start.root) return result = refusedStart(start), false;
     root = *start.root;
-    planner.trail_.follow(request, root, space.free());
+    memory.trail.follow(request, root, space.free());
     return true;
   }
 
@@ -111,17 +113,18 @@ struct FrontierPlanner::Search {
   }
 
   void noteOutcome() {
-    previous = std::exchange(planner.target_, std::nullopt);
+    previous = std::exchange(memory.target, std::nullopt);
     if (previous)
-      planner.tried_.note(previous->path.back().position, request.last_outcome,
-                          request.last_reason);
-    for (const Visit& visit : planner.visits_.takeMade(request))
+      memory.tried.note(previous->path.back().position, memory.last.outcome, memory.last.reason,
+                        request.time_s);
+    memory.tried.age(request.time_s);
+    for (const Visit& visit : memory.visits.takeMade(request, memory.last.outcome))
       if (keepsPromise(visit.voxel, visit.place, visit.gain_m3))
-        planner.tried_.giveUp(visit.place, "been there: what it promised cannot be seen from it");
+        memory.tried.giveUp(visit.place, "been there: what it promised cannot be seen from it");
   }
 
   [[nodiscard]] bool fliesOn() {
-    if (!previous || request.last_outcome != PathOutcome::kReplaced) return false;
+    if (!previous || memory.last.outcome != PathOutcome::kReplaced) return false;
     const PathProjection at = project(previous->path, request.pose.position);
     Path rest = slice(previous->path, at.arc_m, lengthOf(previous->path));
     constexpr double kBeside_m = 0.3;
@@ -181,7 +184,7 @@ struct FrontierPlanner::Search {
 
   void consider(const Eigen::Vector3d& voxel, const Eigen::Vector3d& place) {
     constexpr double kHere_m = 0.3;  // the robot looks from there anyway
-    if ((place - root).norm() < kHere_m || planner.tried_.findRefusal(place)) {
+    if ((place - root).norm() < kHere_m || memory.tried.findRefusal(place)) {
       ++given_up;
       return;
     }
@@ -193,7 +196,7 @@ struct FrontierPlanner::Search {
     auto answer = space.navigate(root, place, stream, navigation::TreeDetail::kKeep);
     if (answer.status != navigation::NavigationStatus::kOk) {
       ++unreachable;
-      planner.tried_.note(place, PathOutcome::kBlocked, "no free way leads to it");
+      memory.tried.note(place, PathOutcome::kBlocked, "no free way leads to it", request.time_s);
       return;
     }
     candidate.way = toLine(answer.path);
@@ -213,13 +216,13 @@ struct FrontierPlanner::Search {
   [[nodiscard]] bool fitsBudget(double length_m, const Eigen::Vector3d& end) {
     const double straight_m = (request.home.position - end).norm();
     if (travelTime(length_m + straight_m) > request.remaining_s) return false;
-    if (travelTime(2.0 * length_m + planner.trail_.metres()) <= request.remaining_s) return true;
+    if (travelTime(2.0 * length_m + memory.trail.metres()) <= request.remaining_s) return true;
     return travelTime(length_m + metresHome(length_m, end)) <= request.remaining_s;
   }
 
   /// From the end of a way that is `length_m` long.
   [[nodiscard]] double metresHome(double length_m, const Eigen::Vector3d& end) {
-    const double back_m = length_m + planner.trail_.metres();
+    const double back_m = length_m + memory.trail.metres();
     const auto home = ways_home.navigate(end, request.home.position, "home from a target",
                                          navigation::TreeDetail::kLeaveOut);
     return home.status == navigation::NavigationStatus::kOk ? std::min(lengthOf(home.path), back_m)
@@ -242,7 +245,7 @@ struct FrontierPlanner::Search {
       for (const Eigen::Vector3d& vertex : candidate.trees.vertices)
         planner.search_layer_.vertices.push_back({vertex, 0.0, false});
       propose({candidate.voxel, std::move(path), candidate.gain_m3});
-      planner.visits_.expect(
+      memory.visits.expect(
           {candidate.voxel, candidate.way.back(), candidate.gain_m3, request.time_s});
       result.reason =
           "to a frontier " + std::to_string(std::lround(lengthOf(result.path))) + " m away";
@@ -254,13 +257,13 @@ struct FrontierPlanner::Search {
   void propose(Target target) {
     result.status = PlanStatus::kOk;
     result.path = target.path;
-    planner.trail_.expect(toLine(target.path), space.free());
+    memory.trail.expect(toLine(target.path), space.free());
     constexpr double kNear = 3.0;  // times the range: such a way is flown with its eyes open
     result.kind =
         lengthOf(target.path) < kNear * params.range_m ? PathKind::kLocal : PathKind::kReposition;
     result.stats.best_gain = target.gain_m3;
     result.stats.vertices += static_cast<int>(candidates.size() + result.path.size());
-    planner.target_ = std::move(target);
+    memory.target = std::move(target);
   }
 
   void reportNothingLeft() {
@@ -288,7 +291,7 @@ struct FrontierPlanner::Search {
 
   void goHome() {
     constexpr double kShortcut_m = 8.0;
-    const Polyline back = space.shortened(planner.trail_.findWay(space.free()), kShortcut_m);
+    const Polyline back = space.shortened(memory.trail.findWay(space.free()), kShortcut_m);
     const auto answer =
         ways_home.navigate(root, request.home.position, "home", navigation::TreeDetail::kLeaveOut);
     const bool is_found = answer.status == navigation::NavigationStatus::kOk;
@@ -304,14 +307,14 @@ struct FrontierPlanner::Search {
 
 FrontierPlanner::FrontierPlanner(const FrontierPlannerParams& params, Preference preference,
                                  const RobotModel& robot, double resolution_m)
-    : params_(params),
+    : Remembering(FrontierMemory(params.tried_radius_m)),
+      params_(params),
       preference_(preference),
       robot_(robot),
       view_(robot, resolution_m, {params.range_m, {params.closing_height_m, params.growth_m}}),
       navigator_(params.navigation()),
       home_navigator_(params.homeNavigation()),
-      boxes_(robot.box_m),
-      tried_(params.tried_radius_m) {
+      boxes_(robot.box_m) {
   require(kindOf(robot) == RobotKind::kAerial, "FrontierPlanner: for robots that fly");
 }
 
@@ -328,7 +331,7 @@ PlanResult FrontierPlanner::doPlan(const PlanRequest& request) {
   search.result.stats.frontiers = static_cast<int>(view_.frontier().count());
   if (search.ranksByUtility()) search.result.stats.gain_threshold = params_.gain_min_m3;
   search.result.stats.total_ms = watch.milliseconds();
-  return std::move(search.result);
+  return remembering(std::move(search.result), std::move(search.memory));
 }
 
 PlanResult FrontierPlanner::doPlanHome(const PlanRequest& request) {
@@ -343,15 +346,5 @@ PlanResult FrontierPlanner::doPlanHome(const PlanRequest& request) {
 PlannerGraph FrontierPlanner::graph() const { return {{search_layer_, samples_layer_}}; }
 
 void FrontierPlanner::restore(const PlannerGraph& /*graph*/) {}
-
-void FrontierPlanner::reset() {
-  view_.forget();
-  tried_ = TriedTargets(params_.tried_radius_m);
-  visits_ = {};
-  trail_ = {};
-  target_.reset();
-  search_layer_ = {};
-  samples_layer_ = {};
-}
 
 }  // namespace spelunk::planners::baselines

@@ -1,5 +1,7 @@
 #include "spelunk/planners/baselines/frontier_planner_params.h"
 
+#include "spelunk/planners/shared/robot_fit.h"
+
 namespace spelunk::planners::baselines {
 
 navigation::NavigationParams FrontierPlannerParams::navigation() const {
@@ -18,6 +20,12 @@ navigation::NavigationParams FrontierPlannerParams::homeNavigation() const {
   return ways;
 }
 
+FrontierPlannerParams FrontierPlannerParams::resolvedFor(const RobotModel& robot) const {
+  FrontierPlannerParams resolved = *this;
+  if (resolved.range_m <= 0.0) resolved.range_m = denseRange(robot);
+  return resolved;
+}
+
 std::vector<std::string> FrontierPlannerParams::problems() const { return navigation().problems(); }
 
 FrontierPlannerParams FrontierPlannerParams::forNearest() {
@@ -34,6 +42,13 @@ FrontierPlannerParams FrontierPlannerParams::forRrtStar() {
   params.gain_min_m3 = 10.0;  // around a LiDAR of few rows, floor and roof are frontier everywhere
   params.range_m = 10.0;
   return params;
+}
+
+std::vector<std::string> FrontierPlannerParams::problemsFor(const RobotModel& robot,
+                                                            double resolution_m) const {
+  const FrontierPlannerParams all = resolvedFor(robot);
+  return joined(edgeProblems("range_m", all.range_m, resolution_m),
+                sightProblems("range_m", all.range_m, robot));
 }
 
 }  // namespace spelunk::planners::baselines

@@ -30,6 +30,7 @@ AxisAlignedBox everywhere(const map::FrozenMap& map, const AxisAlignedBox& bound
 struct NbvpPlanner::Search {
   NbvpPlanner& planner;
   const PlanRequest& request;
+  NbvpMemory memory;  ///< A copy: what it learns counts if the plan is taken.
   const NbvpParams& params;
   FreeSpace space;
   PlanResult result{};
@@ -45,6 +46,7 @@ struct NbvpPlanner::Search {
   Search(NbvpPlanner& owner, const PlanRequest& asked)
       : planner(owner),
         request(asked),
+        memory(owner.recall(asked)),
         params(owner.params_),
         space([&boxes = owner.boxes_](const Eigen::Vector3d& a,
                                       const Eigen::Vector3d& b) { return boxes.sweep(a, b); },
@@ -63,15 +65,16 @@ struct NbvpPlanner::Search {
   }
 
   void noteOutcome() {
-    const Path& branch = planner.branch_;
+    memory.tried.age(request.time_s);
+    const Path& branch = memory.branch;
     if (branch.empty()) return;
-    planner.tried_.note(poseAt(branch, planner.executed_m_).position, request.last_outcome,
-                        request.last_reason);
+    memory.tried.note(poseAt(branch, memory.executed_m).position, memory.last.outcome,
+                      memory.last.reason, request.time_s);
   }
 
   void followTrail() {
-    planner.trail_.follow(request, root.position, space);
-    way_home_m = planner.trail_.metres();
+    memory.trail.follow(request, root.position, space);
+    way_home_m = memory.trail.metres();
   }
 
   /// The root and what is left of the best branch of the last tree, its gains counted anew.
@@ -90,10 +93,10 @@ struct NbvpPlanner::Search {
 
   /// The nodes of the best branch of the last tree that the robot has not passed yet.
   [[nodiscard]] Path branchAhead() const {
-    const Path& branch = planner.branch_;
+    const Path& branch = memory.branch;
     if (branch.empty()) return {};
     const double passed_m =
-        project(slice(branch, 0.0, planner.executed_m_), root.position).arc_m + kSamePlace_m;
+        project(slice(branch, 0.0, memory.executed_m), root.position).arc_m + kSamePlace_m;
     Path ahead;
     double arc_m = 0.0;
     for (std::size_t i = 1; i < branch.size(); ++i) {
@@ -162,7 +165,7 @@ struct NbvpPlanner::Search {
   }
 
   [[nodiscard]] bool mayBeBest(std::size_t number) {
-    if (planner.tried_.findRefusal(tree->node(executedOf(number)).pose.position))
+    if (memory.tried.findRefusal(tree->node(executedOf(number)).pose.position))
       return is_refused = true, false;
     const double metres = tree->node(number).length_m + wayHomeFrom(number);
     const double seconds = params.eta_factor * metres / planner.robot_.speed_max_mps;
@@ -184,12 +187,12 @@ struct NbvpPlanner::Search {
   }
 
   void executeFirstEdge() {
-    planner.branch_.clear();
+    memory.branch.clear();
     if (best == 0) return reportNothingLeft();
     for (const std::size_t number : tree->branchTo(best))
-      planner.branch_.push_back(tree->node(number).pose);
-    planner.executed_m_ = tree->node(executedOf(best)).length_m;
-    planner.trail_.expect(toLine(slice(planner.branch_, 0.0, planner.executed_m_)), space);
+      memory.branch.push_back(tree->node(number).pose);
+    memory.executed_m = tree->node(executedOf(best)).length_m;
+    memory.trail.expect(toLine(slice(memory.branch, 0.0, memory.executed_m)), space);
     result.status = PlanStatus::kOk;
     result.kind = PathKind::kLocal;
     result.path = {request.pose};
@@ -197,7 +200,7 @@ struct NbvpPlanner::Search {
     for (const std::size_t number : tree->branchTo(executedOf(best)))
       if (number != 0) result.path.push_back(tree->node(number).pose);
     result.stats.best_gain = tree->node(best).gain_m3;
-    result.reason = "first of " + std::to_string(planner.branch_.size() - 1) + " edges, " +
+    result.reason = "first of " + std::to_string(memory.branch.size() - 1) + " edges, " +
                     std::to_string(std::lround(result.stats.best_gain)) + " m3 along them";
   }
 
@@ -220,7 +223,7 @@ struct NbvpPlanner::Search {
   }
 
   void goHome() {
-    result = homeResult(request, root.position, planner.trail_.findWay(space), result.stats);
+    result = homeResult(request, root.position, memory.trail.findWay(space), result.stats);
   }
 
   [[nodiscard]] GraphLayer treeLayer() const {
@@ -236,13 +239,13 @@ struct NbvpPlanner::Search {
 };
 
 NbvpPlanner::NbvpPlanner(const NbvpParams& params, const RobotModel& robot, double resolution_m)
-    : params_(params),
+    : Remembering(NbvpMemory(params.tried_radius_m)),
+      params_(params),
       robot_(robot),
       evaluator_(robot.sensor_models, resolution_m, map::GainCounting::kCone, params.cone_depth_m),
       credible_({params.closing_height_m, params.growth_m}),
       window_(kWindowSlack_m),
-      boxes_(robot.box_m),
-      tried_(params.tried_radius_m) {}
+      boxes_(robot.box_m) {}
 
 PlanResult NbvpPlanner::doPlan(const PlanRequest& request) {
   const Stopwatch watch;
@@ -256,7 +259,7 @@ PlanResult NbvpPlanner::doPlan(const PlanRequest& request) {
   tree_layer_ = search.treeLayer();
   search.result.stats.gain_threshold = params_.gain_min_m3;
   search.result.stats.total_ms = watch.milliseconds();
-  return std::move(search.result);
+  return remembering(std::move(search.result), std::move(search.memory));
 }
 
 PlanResult NbvpPlanner::doPlanHome(const PlanRequest& request) {
@@ -269,20 +272,11 @@ PlanResult NbvpPlanner::doPlanHome(const PlanRequest& request) {
   return std::move(search.result);
 }
 
-PlannerGraph NbvpPlanner::graph() const { return {{tree_layer_, trail_.layer()}}; }
+PlannerGraph NbvpPlanner::graph() const { return {{tree_layer_, memory().trail.layer()}}; }
 
 void NbvpPlanner::restore(const PlannerGraph& graph) {
   for (const GraphLayer& layer : graph.layers)
-    if (layer.name == "trail") trail_.restore(layer);
-}
-
-void NbvpPlanner::reset() {
-  credible_ = map::CredibleMap({params_.closing_height_m, params_.growth_m});
-  window_.forget();
-  trail_ = {};
-  tried_ = TriedTargets(params_.tried_radius_m);
-  branch_.clear();
-  tree_layer_ = {};
+    if (layer.name == "trail") memory().trail.restore(layer);
 }
 
 }  // namespace spelunk::planners::baselines

@@ -74,6 +74,7 @@ Polyline readTour(const std::string& path) {
 struct OraclePlanner::Search {
   OraclePlanner& planner;
   const PlanRequest& request;
+  OracleMemory memory;  ///< A copy: what it learns counts if the plan is taken.
   KnownSpace space;
   PlanResult result{};
   Eigen::Vector3d root = Eigen::Vector3d::Zero();
@@ -82,6 +83,7 @@ struct OraclePlanner::Search {
   Search(OraclePlanner& owner, const PlanRequest& asked)
       : planner(owner),
         request(asked),
+        memory(owner.recall(asked)),
         space(asked, owner.robot_, owner.navigator_, owner.boxes_) {}
 
   [[nodiscard]] const Polyline& tour() const { return planner.tour_; }
@@ -90,7 +92,7 @@ struct OraclePlanner::Search {
     const StartCheck start = checkStart(request, space.free());
     if (!start.root) return result = refusedStart(start), false;
     root = *start.root;
-    planner.trail_.follow(request, root, space.free());
+    memory.trail.follow(request, root, space.free());
     line = {root};
     return true;
   }
@@ -99,10 +101,10 @@ struct OraclePlanner::Search {
   /// may be the end of a detour that is still to be flown.
   void notePassed() {
     double arc_m = 0.0;
-    for (std::size_t i = planner.next_; i < tour().size(); ++i) {
-      if (i > planner.next_) arc_m += (tour()[i] - tour()[i - 1]).norm();
+    for (std::size_t i = memory.next; i < tour().size(); ++i) {
+      if (i > memory.next) arc_m += (tour()[i] - tour()[i - 1]).norm();
       if (arc_m > kSkipped * planner.params_.reached_m) break;
-      if (isNear(tour()[i])) planner.next_ = i + 1;
+      if (isNear(tour()[i])) memory.next = i + 1;
     }
   }
 
@@ -116,8 +118,8 @@ struct OraclePlanner::Search {
   /// To the next point of the tour, else to the first one behind it that a way leads to.
   void joinTour() {
     int ways = 0;
-    for (std::size_t i = planner.next_; i < tour().size() && line.size() == 1 && ways < kWaysTried;
-         i += 1 + (i - planner.next_) / 8) {  // farther and farther apart
+    for (std::size_t i = memory.next; i < tour().size() && line.size() == 1 && ways < kWaysTried;
+         i += 1 + (i - memory.next) / 8) {  // farther and farther apart
       ++result.stats.samples;
       if (space.free().isFree(root, tour()[i])) {
         line.push_back(tour()[i]);
@@ -127,7 +129,7 @@ struct OraclePlanner::Search {
                                            navigation::TreeDetail::kLeaveOut);
         if (answer.status == navigation::NavigationStatus::kOk) line = toLine(answer.path);
       }
-      if (line.size() > 1) planner.next_ = i;
+      if (line.size() > 1) memory.next = i;
     }
   }
 
@@ -142,7 +144,7 @@ struct OraclePlanner::Search {
   /// Along the tour as far as it is free and in sight.
   void followTour() {
     double length_m = graph::lengthOf(line);
-    for (std::size_t i = planner.next_ + 1; i < tour().size(); ++i) {
+    for (std::size_t i = memory.next + 1; i < tour().size(); ++i) {
       length_m += (tour()[i] - line.back()).norm();
       if (length_m > planner.params_.look_ahead_m) break;
       if (!space.free().isFree(line.back(), tour()[i])) break;
@@ -152,7 +154,7 @@ struct OraclePlanner::Search {
 
   void propose() {
     line = space.shortened(line, planner.params_.shortcut_length_max_m);
-    planner.trail_.expect(line, space.free());
+    memory.trail.expect(line, space.free());
     result.status = PlanStatus::kOk;
     result.path = pathFrom(request.pose, root, line);
     result.stats.vertices = static_cast<int>(line.size());
@@ -162,7 +164,7 @@ struct OraclePlanner::Search {
 
   [[nodiscard]] double metresLeft() const {
     double metres = 0.0;
-    for (std::size_t i = planner.next_ + 1; i < tour().size(); ++i)
+    for (std::size_t i = memory.next + 1; i < tour().size(); ++i)
       metres += (tour()[i] - tour()[i - 1]).norm();
     return metres;
   }
@@ -174,19 +176,20 @@ struct OraclePlanner::Search {
       followTour();
       return propose();
     }
-    const bool is_at_end = planner.next_ == tour().size();
+    const bool is_at_end = memory.next == tour().size();
     result.status = is_at_end ? PlanStatus::kNothingToGain : PlanStatus::kNoPath;
     result.reason =
         is_at_end ? "the tour is at its end" : "no free way leads to the next points of the tour";
   }
 
   void goHome() {
-    result = homeResult(request, root, planner.trail_.findWay(space.free()), result.stats);
+    result = homeResult(request, root, memory.trail.findWay(space.free()), result.stats);
   }
 };
 
 OraclePlanner::OraclePlanner(const OracleParams& params, Polyline tour, const RobotModel& robot)
-    : params_(params),
+    : Remembering(OracleMemory{}),
+      params_(params),
       tour_(std::move(tour)),
       robot_(robot),
       navigator_(navigationParams()),
@@ -200,7 +203,7 @@ PlanResult OraclePlanner::doPlan(const PlanRequest& request) {
   if (!search.findRoot()) return std::move(search.result);
   search.follow();
   search.result.stats.total_ms = watch.milliseconds();
-  return std::move(search.result);
+  return remembering(std::move(search.result), std::move(search.memory));
 }
 
 PlanResult OraclePlanner::doPlanHome(const PlanRequest& request) {
@@ -214,22 +217,17 @@ PlanResult OraclePlanner::doPlanHome(const PlanRequest& request) {
 
 PlannerGraph OraclePlanner::graph() const {
   GraphLayer layer{"tour", {}, {}};
-  for (std::size_t i = next_; i < tour_.size(); ++i) {
+  for (std::size_t i = memory().next; i < tour_.size(); ++i) {
     layer.vertices.push_back({tour_[i], 0.0, false});
     const auto number = static_cast<std::uint32_t>(layer.vertices.size() - 1);
     if (number > 0) layer.edges.emplace_back(number - 1, number);
   }
-  return {{layer, trail_.layer()}};
+  return {{layer, memory().trail.layer()}};
 }
 
 void OraclePlanner::restore(const PlannerGraph& graph) {
   for (const GraphLayer& layer : graph.layers)
-    if (layer.name == "trail") trail_.restore(layer);
-}
-
-void OraclePlanner::reset() {
-  trail_ = {};
-  next_ = 0;
+    if (layer.name == "trail") memory().trail.restore(layer);
 }
 
 }  // namespace spelunk::planners::baselines

@@ -34,15 +34,21 @@ GlobalGraphLimits limitsFrom(const GbPlannerParams& params) {
 
 }  // namespace
 
+GbMemory::GbMemory(const GbPlannerParams& params)
+    : global(limitsFrom(params)),
+      tried(params.tried_radius_m),
+      trail_known_until_s(-std::numeric_limits<double>::infinity()) {}
+
 /// State shared by the steps of one plan.
 struct GbPlanner::Search {
   GbPlanner& planner;
   const PlanRequest& request;
+  GbMemory memory;  ///< A copy: what it learns counts if the plan is taken.
   PlanView view;
   PlanResult result{};
   Eigen::Vector3d root = Eigen::Vector3d::Zero();
   VertexId current{};
-  std::optional<Proposal> previous{};
+  std::optional<GbMemory::Proposal> previous{};
   LocalPlan local{};
   double way_home_m = 0.0;
   std::optional<map::PresumedWays> presumed{};  ///< From the root.
@@ -50,6 +56,7 @@ struct GbPlanner::Search {
   Search(GbPlanner& owner, const PlanRequest& asked)
       : planner(owner),
         request(asked),
+        memory(owner.recall(asked)),
         view(asked, owner.robot_, owner.params_, owner.evaluator_, {owner.body_, owner.roomy_},
              owner.window_) {}
 
@@ -58,38 +65,39 @@ struct GbPlanner::Search {
   }
 
   void noteOutcome() {
-    previous = std::exchange(planner.proposal_, std::nullopt);
-    if (previous) planner.tried_.note(previous->target, request.last_outcome, request.last_reason);
+    previous = std::exchange(memory.proposal, std::nullopt);
+    if (previous)
+      memory.tried.note(previous->target, memory.last.outcome, memory.last.reason, request.time_s);
+    memory.tried.age(request.time_s);
   }
 
   void joinGlobalGraph() {
-    if (planner.global_.isEmpty()) planner.global_.setHome(request.home.position);
+    if (memory.global.isEmpty()) memory.global.setHome(request.home.position);
     for (const StampedPose& stamped : request.trail) {
-      if (stamped.time_s <= planner.trail_known_until_s_) continue;
-      planner.global_.addFlown(stamped.pose.position, view.space());
-      planner.trail_known_until_s_ = stamped.time_s;
+      if (stamped.time_s <= memory.trail_known_until_s) continue;
+      memory.global.addFlown(stamped.pose.position, view.space());
+      memory.trail_known_until_s = stamped.time_s;
     }
-    current = planner.global_.addPoint(root, view.space());
-    if (planner.checked_zones_ != request.zones.size()) {
-      planner.global_.forgetChecksNear(root, std::numeric_limits<double>::infinity());
-      planner.checked_zones_ = request.zones.size();
+    current = memory.global.addPoint(root, view.space());
+    if (memory.checked_zones != request.zones_revision) {
+      memory.global.forgetChecksNear(root, std::numeric_limits<double>::infinity());
+      memory.checked_zones = request.zones_revision;
     }
-    if (planner.checked_map_ != request.map) {
-      planner.global_.forgetChecksNear(root, longestRange(planner.robot_));
-      planner.checked_map_ = request.map;
+    if (memory.checked_map != request.map) {
+      memory.global.forgetChecksNear(root, longestRange(planner.robot_));
+      memory.checked_map = request.map;
     }
   }
 
   void measureWayHome() {
     way_home_m =
-        graph::findShortestPath(planner.global_.graph(), current, GlobalGraph::home()).length;
+        graph::findShortestPath(memory.global.graph(), current, GlobalGraph::home()).length;
   }
 
   void planLocally(const GbPlannerParams& params) {
     const bool flies_on = previous && previous->kind == PathKind::kLocal &&
-                          request.last_outcome == PathOutcome::kReplaced;
-    LocalContext context{planner.tried_, std::nullopt,
-                         std::isfinite(way_home_m) ? way_home_m : 0.0};
+                          memory.last.outcome == PathOutcome::kReplaced;
+    LocalContext context{memory.tried, std::nullopt, std::isfinite(way_home_m) ? way_home_m : 0.0};
     if (flies_on) context.previous_target = previous->end;
     local =
         gbplanner::planLocally(request, view, root, context, planner.robot_, params, result.stats);
@@ -109,28 +117,28 @@ struct GbPlanner::Search {
   void extendGlobalGraph() {
     const Stopwatch watch;
     reevaluateFrontiers();
-    if (!local.best.empty()) planner.global_.addPath(local.best, view.space());
+    if (!local.best.empty()) memory.global.addPath(local.best, view.space());
     for (const PrincipalPath& principal : local.principals) {
-      if (planner.global_.hasFrontierNear(principal.path.back(), principal.gain_m3)) continue;
-      const VertexId leaf = planner.global_.addPath(principal.path, view.space());
-      planner.global_.markFrontier(leaf, principal.gain_m3);
+      if (memory.global.hasFrontierNear(principal.path.back(), principal.gain_m3)) continue;
+      const VertexId leaf = memory.global.addPath(principal.path, view.space());
+      memory.global.markFrontier(leaf, principal.gain_m3);
     }
     result.stats.global_ms = watch.milliseconds();
   }
 
   void reevaluateFrontiers() {
-    for (Frontier& frontier : planner.global_.frontiers()) {
-      const Eigen::Vector3d& at = planner.global_.graph().position(frontier.vertex);
+    for (Frontier& frontier : memory.global.frontiers()) {
+      const Eigen::Vector3d& at = memory.global.graph().position(frontier.vertex);
       if (frontier.isOpen() && view.localBox().contains(at))
         frontier.gain_m3 = view.gainAt(at, request.pose.yaw);
     }
-    planner.global_.dropFrontiersBelow(kMinorShare * planner.params_.frontier_gain_m3);
+    memory.global.dropFrontiersBelow(kMinorShare * planner.params_.frontier_gain_m3);
   }
 
   /// Local completion: what promised to be worth coming here has kept its promise or not.
   void closeFrontiersHere() {
-    for (Frontier& frontier : planner.global_.frontiers()) {
-      const Eigen::Vector3d& at = planner.global_.graph().position(frontier.vertex);
+    for (Frontier& frontier : memory.global.frontiers()) {
+      const Eigen::Vector3d& at = memory.global.graph().position(frontier.vertex);
       if (frontier.isOpen() && (at - root).norm() < planner.params_.tried_radius_m)
         frontier.closed_because = "been there: no path from it reaches the gain threshold";
     }
@@ -155,10 +163,10 @@ struct GbPlanner::Search {
                                             request.pose.yaw);
                       }};
     if (with_presumed_ways && !presumed)
-      presumed.emplace(planner.credible_.of(request.map), root, kPresumedReach_m, planner.closed_);
+      presumed.emplace(planner.credible_.of(request.map), root, kPresumedReach_m, memory.closed);
     if (with_presumed_ways) query.presumed = &*presumed;
-    GlobalPlan plan = gbplanner::planGlobally(planner.global_, query, view.space(), planner.tried_,
-                                              planner.params_);
+    GlobalPlan plan =
+        gbplanner::planGlobally(memory.global, query, view.space(), memory.tried, planner.params_);
     result.stats.global_ms += watch.milliseconds();
     return plan;
   }
@@ -166,10 +174,10 @@ struct GbPlanner::Search {
   /// The next piece of the presumed way to the plan's target; false if it cannot be flown.
   bool advance(const GlobalPlan& plan) {
     const map::PresumedWays to_target(planner.credible_.of(request.map), *plan.target,
-                                      kPresumedReach_m, planner.closed_);
-    const Polyline piece = pieceTowards(local.local, to_target, planner.tried_);
+                                      kPresumedReach_m, memory.closed);
+    const Polyline piece = pieceTowards(local.local, to_target, memory.tried);
     if (piece.empty()) return false;
-    planner.global_.addPath(piece, view.space());
+    memory.global.addPath(piece, view.space());
     finish(improved(piece), PathKind::kReposition, piece.back());
     const auto whole = [](double number) { return std::to_string(std::lround(number)); };
     result.reason =
@@ -183,7 +191,7 @@ struct GbPlanner::Search {
   /// No piece of the presumed way can be flown: none leads through here again.
   void closeWayAhead(const GlobalPlan& plan) {
     if (const auto place = placeAhead(presumed->wayTo(*plan.target)))
-      planner.closed_.push_back(*place);
+      memory.closed.push_back(*place);
     presumed.reset();
   }
 
@@ -224,8 +232,7 @@ struct GbPlanner::Search {
   }
 
   void goHome() {
-    Polyline way =
-        fromRoot(planner.global_.findFreePath(current, GlobalGraph::home(), view.space()));
+    Polyline way = fromRoot(memory.global.findFreePath(current, GlobalGraph::home(), view.space()));
     if (way.empty()) {
       result.status = PlanStatus::kNoPath;
       result.reason = "no free path home is left in the global graph";
@@ -263,11 +270,11 @@ struct GbPlanner::Search {
   }
 
   void listRemaining() {
-    for (const Frontier& frontier : planner.global_.frontiers()) {
+    for (const Frontier& frontier : memory.global.frontiers()) {
       const std::string why = frontier.isOpen() ? "no time for it and the way home, or no free path"
                                                 : frontier.closed_because;
       result.remaining.push_back(
-          {planner.global_.graph().position(frontier.vertex), frontier.gain_m3, why});
+          {memory.global.graph().position(frontier.vertex), frontier.gain_m3, why});
     }
   }
 
@@ -286,14 +293,14 @@ struct GbPlanner::Search {
     result.status = PlanStatus::kOk;
     result.kind = kind;
     result.path = pathFrom(request.pose, root, line);
-    planner.proposal_ = Proposal{kind, target, line.back()};
-    if (kind == PathKind::kLocal) planner.global_.addPath(line, view.space());
+    memory.proposal = GbMemory::Proposal{kind, target, line.back()};
+    if (kind == PathKind::kLocal) memory.global.addPath(line, view.space());
   }
 
   void fillStats() {
-    result.stats.global_vertices = static_cast<int>(planner.global_.graph().vertexCount());
-    result.stats.global_edges = static_cast<int>(planner.global_.graph().edgeCount());
-    result.stats.frontiers = static_cast<int>(planner.global_.frontiers().size());
+    result.stats.global_vertices = static_cast<int>(memory.global.graph().vertexCount());
+    result.stats.global_edges = static_cast<int>(memory.global.graph().edgeCount());
+    result.stats.frontiers = static_cast<int>(memory.global.frontiers().size());
     result.stats.best_gain = local.best_gain_m3;
     result.stats.gain_threshold = planner.params_.gain_threshold_m3;
   }
@@ -312,7 +319,8 @@ struct GbPlanner::Search {
 };
 
 GbPlanner::GbPlanner(const GbPlannerParams& params, const RobotModel& robot, double resolution_m)
-    : params_(params),
+    : Remembering(GbMemory(params)),
+      params_(params),
       robot_(robot),
       evaluator_(robot.sensor_models, resolution_m,
                  params.count_cones ? map::GainCounting::kCone : map::GainCounting::kPerRay,
@@ -320,10 +328,7 @@ GbPlanner::GbPlanner(const GbPlannerParams& params, const RobotModel& robot, dou
       credible_({params.closing_height_m, params.growth_m}),
       window_(kWindowSlack_m),
       body_(robot.box_m),
-      roomy_(robot.box_m + 2.0 * params.safety_margin_m),
-      global_(limitsFrom(params)),
-      tried_(params.tried_radius_m),
-      trail_known_until_s_(-std::numeric_limits<double>::infinity()) {}
+      roomy_(robot.box_m + 2.0 * params.safety_margin_m) {}
 
 PlanResult GbPlanner::doPlan(const PlanRequest& request) {
   const Stopwatch watch;
@@ -342,7 +347,7 @@ PlanResult GbPlanner::doPlan(const PlanRequest& request) {
   search.fillStats();
   search.result.stats.total_ms = watch.milliseconds();
   local_layer_ = search.localLayer();
-  return std::move(search.result);
+  return remembering(std::move(search.result), std::move(search.memory));
 }
 
 PlanResult GbPlanner::doPlanHome(const PlanRequest& request) {
@@ -358,23 +363,12 @@ PlanResult GbPlanner::doPlanHome(const PlanRequest& request) {
   return std::move(search.result);
 }
 
-PlannerGraph GbPlanner::graph() const { return {{local_layer_, global_.layer()}}; }
+PlannerGraph GbPlanner::graph() const { return {{local_layer_, memory().global.layer()}}; }
 
 void GbPlanner::restore(const PlannerGraph& graph) {
   for (const GraphLayer& layer : graph.layers) {
-    if (layer.name == "global") global_.restore(layer);
+    if (layer.name == "global") memory().global.restore(layer);
   }
-}
-
-void GbPlanner::reset() {
-  global_ = GlobalGraph(limitsFrom(params_));
-  tried_ = TriedTargets(params_.tried_radius_m);
-  proposal_.reset();
-  trail_known_until_s_ = -std::numeric_limits<double>::infinity();
-  checked_map_.reset();
-  closed_.clear();
-  window_.forget();
-  local_layer_ = {};
 }
 
 }  // namespace spelunk::planners::gbplanner

@@ -27,10 +27,9 @@ AxisAlignedBox grown(const AxisAlignedBox& box, const Eigen::Vector3d& margin) {
   return {box.min - margin, box.max + margin};
 }
 
-/// How far rays reach beyond a position; the fields of view are flat.
+/// How far rays reach beyond a position.
 Eigen::Vector3d gainMargin(const map::GainEvaluator& evaluator) {
-  constexpr double kSteepest = 0.3;  // tangent of the steepest rays that matter beyond the box
-  return {evaluator.reach(), evaluator.reach(), kSteepest * evaluator.reach()};
+  return {evaluator.reach(), evaluator.reach(), evaluator.reachInHeight()};
 }
 
 }  // namespace

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "spelunk/planners/shared/robot_fit.h"
+
 namespace spelunk::planners::informed {
 namespace {
 
@@ -13,8 +15,7 @@ constexpr double kVisitedRadius_m = 1.0;
 InformedParams InformedParams::resolvedFor(const RobotModel& robot) const {
   if (range_m > 0.0) return *this;
   InformedParams resolved = *this;
-  for (const SensorModel& sensor : robot.sensor_models)
-    resolved.range_m = std::max(resolved.range_m, denseRange(sensor, robot.box_m.z()));
+  resolved.range_m = denseRange(robot);
   if (resolved.range_m <= 0.0) resolved.range_m = kPaperRange_m;
   const double scale = resolved.range_m / kPaperRange_m;
   resolved.sample_spacing_m *= scale;
@@ -28,10 +29,22 @@ InformedParams InformedParams::resolvedFor(const RobotModel& robot) const {
 std::vector<std::string> InformedParams::problems() const {
   std::vector<std::string> problems;
   const double range = range_m > 0.0 ? range_m : kPaperRange_m;
-  if (sample_spacing_m > range) problems.push_back("sample_spacing_m must not exceed range_m");
+  if (sample_spacing_m > range)
+    problems.push_back("sample_spacing_m = " + toText(sample_spacing_m) +
+                       " must not exceed range_m = " + toText(range));
   if (clearance_weight_branch < clearance_weight_void)
-    problems.push_back("clearance_weight_branch must be at least clearance_weight_void");
+    problems.push_back(
+        "clearance_weight_branch = " + toText(clearance_weight_branch) +
+        " must be at least clearance_weight_void = " + toText(clearance_weight_void));
   return problems;
+}
+
+std::vector<std::string> InformedParams::problemsFor(const RobotModel& robot,
+                                                     double resolution_m) const {
+  const InformedParams all = resolvedFor(robot);
+  return joined(joined(edgeProblems("range_m", all.range_m, resolution_m),
+                       sightProblems("range_m", all.range_m, robot)),
+                sightProblems("visited_radius_m", visited_radius_m, robot));
 }
 
 }  // namespace spelunk::planners::informed

@@ -41,6 +41,7 @@ GraphLayer layerOf(const navigation::NavigationTrees& trees) {
 struct InformedPlanner::Search {
   InformedPlanner& planner;
   const PlanRequest& request;
+  InformedMemory memory;  ///< A copy: what it learns counts if the plan is taken.
   const InformedParams& params;
   KnownSpace space;
   FrontierSurvey survey;
@@ -52,6 +53,7 @@ struct InformedPlanner::Search {
   Search(InformedPlanner& owner, const PlanRequest& asked)
       : planner(owner),
         request(asked),
+        memory(owner.recall(asked)),
         params(owner.params_),
         space(asked, owner.robot_, owner.navigator_, owner.boxes_),
         survey(owner.view_, asked, owner.params_) {}
@@ -65,13 +67,14 @@ struct InformedPlanner::Search {
 
   /// A target that was reached and still promises what it promised keeps its secret for good.
   void noteOutcome() {
-    previous = std::exchange(planner.proposal_, std::nullopt);
+    previous = std::exchange(memory.proposal, std::nullopt);
     if (previous)
-      planner.tried_.note(previous->path.back().position, request.last_outcome,
-                          request.last_reason);
-    for (const Visit& visit : planner.visits_.takeMade(request))
+      memory.tried.note(previous->path.back().position, memory.last.outcome, memory.last.reason,
+                        request.time_s);
+    memory.tried.age(request.time_s);
+    for (const Visit& visit : memory.visits.takeMade(request, memory.last.outcome))
       if (gainAt(visit.place) >= std::max(kShareLeft * visit.gain_m3, params.gain_min_m3))
-        planner.tried_.giveUp(visit.place, "been there: what it promised cannot be seen from it");
+        memory.tried.giveUp(visit.place, "been there: what it promised cannot be seen from it");
   }
 
   [[nodiscard]] double gainAt(const Eigen::Vector3d& place) const {
@@ -80,21 +83,21 @@ struct InformedPlanner::Search {
 
   /// Alg. 1, line 14, for what was flown since the last plan.
   void growGraph() {
-    if (planner.checked_map_ != request.map || planner.checked_zones_ != request.zones.size()) {
-      const bool has_new_zones = planner.checked_zones_ != request.zones.size();
-      planner.growth_.forgetChecksNear(root, has_new_zones ? std::numeric_limits<double>::infinity()
-                                                           : longestRange(planner.robot_));
-      planner.checked_map_ = request.map;
-      planner.checked_zones_ = request.zones.size();
+    if (memory.checked_map != request.map || memory.checked_zones != request.zones_revision) {
+      const bool has_new_zones = memory.checked_zones != request.zones_revision;
+      memory.growth.forgetChecksNear(root, has_new_zones ? std::numeric_limits<double>::infinity()
+                                                         : longestRange(planner.robot_));
+      memory.checked_map = request.map;
+      memory.checked_zones = request.zones_revision;
     }
-    current = planner.growth_.grow(request, root, survey, space);
-    planner.growth_.rejoinHome(current, space);
+    current = memory.growth.grow(request, root, survey, space);
+    memory.growth.rejoinHome(current, space);
   }
 
   /// While what the path leads to is still to be seen, it is flown on.
   [[nodiscard]] bool fliesOn() {
     if (!previous || previous->kind != PathKind::kLocal ||
-        request.last_outcome != PathOutcome::kReplaced)
+        memory.last.outcome != PathOutcome::kReplaced)
       return false;
     const PathProjection at = project(previous->path, request.pose.position);
     Path rest = slice(previous->path, at.arc_m, lengthOf(previous->path));
@@ -117,13 +120,13 @@ struct InformedPlanner::Search {
     result.kind = proposal.kind;
     result.path = proposal.path;
     result.stats.best_gain = proposal.gain_m3;
-    planner.proposal_ = std::move(proposal);
+    memory.proposal = std::move(proposal);
   }
 
   /// The contextual reasoner R_cr: is there time for a way of this length and then home, back along
   /// it and by the graph, else as the motion planner finds it?
   [[nodiscard]] bool fitsBudget(double length_m, const Eigen::Vector3d& end) {
-    const ReachabilityGraph& graph = planner.growth_.graph();
+    const ReachabilityGraph& graph = memory.growth.graph();
     const double home_m = graph.cheapestPath(current, ReachabilityGraph::home()).length;
     if (fitsMetres(2.0 * length_m + home_m)) return true;
     if (!fitsMetres(length_m + (request.home.position - end).norm())) return false;
@@ -145,7 +148,7 @@ struct InformedPlanner::Search {
 
   /// What was too far from where the robot was may be near enough from here.
   void reopenAffordable() {
-    ReachabilityGraph& graph = planner.growth_.graph();
+    ReachabilityGraph& graph = memory.growth.graph();
     for (const VertexId vertex : graph.vertices()) {
       VertexLabel& label = graph.update(vertex);
       if (!label.is_over_budget || label.closed_because.empty()) continue;
@@ -164,19 +167,19 @@ struct InformedPlanner::Search {
         regionAt(*request.map, {root, request.pose.yaw}, params.branch_distance_m);
     CandidateJudge judge{
         request, planner.view_,
-        params,  planner.tried_,
+        params,  memory.tried,
         space,   root,
         region,  0.0,
         {},      [this](const Eigen::Vector3d& place) { return isInReach(place); }};
     ExplorationTurn turn(
-        planner.growth_, survey, judge, request.rng.fork("sampler"),
+        memory.growth, survey, judge, request.rng.fork("sampler"),
         [this](const Candidate& candidate) {
           return fitsBudget(graph::lengthOf(candidate.way), candidate.sample.place);
         },
         [this](VertexId from) { return scout(from); },
         [&]() {
-          return planner.approaches_.find(
-              planner.scouting_.seenFromAfar(planner.growth_.graph(), planner.view_), judge);
+          return memory.approaches.find(
+              memory.scouting.seenFromAfar(memory.growth.graph(), planner.view_), judge);
         });
     std::optional<Choice> choice = turn.chooseFrom(current);
     if (!choice && reopenClosed()) choice = turn.chooseFrom(current);
@@ -190,22 +193,21 @@ struct InformedPlanner::Search {
              choice->candidate.gain_m3, choice->candidate.sample.voxel});
     const Candidate& chosen = choice->candidate;
     if (!chosen.is_approach)
-      planner.visits_.expect(
+      memory.visits.expect(
           {chosen.sample.voxel, chosen.sample.place, chosen.gain_m3, request.time_s});
     const auto whole = [](double number) { return std::to_string(std::lround(number)); };
-    result.reason = chosen.is_approach ? "towards frontier seen from afar, "
-                                : std::string("to a frontier sample in a ") + toText(region) + ", ";
-    result.reason += whole(chosen.gain_m3) + " m3 to be seen, " + whole(chosen.whole_way_m) +
-                     " m away" +
-                     (chosen.is_approach
-                          ? "; " + whole(lengthOf(result.path)) + " m of the way are known"
-                          : "");
+    result.reason = chosen.is_approach
+                        ? "towards frontier seen from afar, "
+                        : std::string("to a frontier sample in a ") + toText(region) + ", ";
+    result.reason +=
+        whole(chosen.gain_m3) + " m3 to be seen, " + whole(chosen.whole_way_m) + " m away" +
+        (chosen.is_approach ? "; " + whole(lengthOf(result.path)) + " m of the way are known" : "");
   }
 
   [[nodiscard]] bool scout(VertexId from) {
-    const int found = planner.scouting_.scout(from, params.ranked_vertices, planner.growth_,
-                                              planner.view_, request, space);
-    if (found > 0) survey.refresh(planner.growth_.graph());
+    const int found = memory.scouting.scout(from, params.ranked_vertices, memory.growth,
+                                            planner.view_, request, space);
+    if (found > 0) survey.refresh(memory.growth.graph());
     return found > 0;
   }
 
@@ -213,12 +215,12 @@ struct InformedPlanner::Search {
   [[nodiscard]] bool reopenClosed() {
     const std::size_t known = request.map->freeVoxels() + request.map->occupiedVoxels();
     constexpr double kWorthALook = 1.01;
-    const auto before = static_cast<double>(planner.reopened_at_voxels_);
+    const auto before = static_cast<double>(memory.reopened_at_voxels);
     if (static_cast<double>(known) < kWorthALook * before) return false;
-    planner.reopened_at_voxels_ = known;
-    bool is_any_open = planner.scouting_.barren() > 0;
-    planner.scouting_.forget();
-    ReachabilityGraph& graph = planner.growth_.graph();
+    memory.reopened_at_voxels = known;
+    bool is_any_open = memory.scouting.barren() > 0;
+    memory.scouting.forget();
+    ReachabilityGraph& graph = memory.growth.graph();
     for (const VertexId vertex : graph.vertices()) {
       VertexLabel& label = graph.update(vertex);
       if (label.closed_because.empty()) continue;
@@ -230,7 +232,7 @@ struct InformedPlanner::Search {
   }
 
   void reportNothingLeft(const ExplorationTurn& turn) {
-    const ReachabilityGraph& graph = planner.growth_.graph();
+    const ReachabilityGraph& graph = memory.growth.graph();
     bool is_over_budget = false;
     for (const VertexId vertex : graph.vertices()) {
       const VertexLabel& label = graph.labelOf(vertex);
@@ -289,9 +291,9 @@ struct InformedPlanner::Search {
   /// Here, and if the last path ends here, places along it back to its start, corners included.
   [[nodiscard]] Polyline placesBackAlongProposal() const {
     const bool ends_here =
-        planner.proposal_ && (planner.proposal_->path.back().position - root).norm() < kThere_m;
+        memory.proposal && (memory.proposal->path.back().position - root).norm() < kThere_m;
     if (!ends_here) return {root};
-    const Polyline corners = toLine(reversed(planner.proposal_->path));
+    const Polyline corners = toLine(reversed(memory.proposal->path));
     Polyline places{root};
     for (std::size_t i = 1; i < corners.size(); ++i) {
       const Polyline leg = graph::resampled({corners[i - 1], corners[i]}, params.range_m);
@@ -302,7 +304,7 @@ struct InformedPlanner::Search {
 
   /// From a place near a vertex that a free straight way leads to, along the graph.
   [[nodiscard]] Polyline wayHomeFrom(const Eigen::Vector3d& from) {
-    GraphGrowth& growth = planner.growth_;
+    GraphGrowth& growth = memory.growth;
     constexpr int kTried = 8;
     int tried = 0;
     for (const VertexId vertex : growth.graph().graph().findWithin(from, 2.0 * params.range_m)) {
@@ -317,7 +319,7 @@ struct InformedPlanner::Search {
   void finishHome(const Polyline& way) { result = homeResult(request, root, way, result.stats); }
 
   void fillStats() {
-    const graph::SpatialGraph& graph = planner.growth_.graph().graph();
+    const graph::SpatialGraph& graph = memory.growth.graph().graph();
     result.stats.global_vertices = static_cast<int>(graph.vertexCount());
     result.stats.global_edges = static_cast<int>(graph.edgeCount());
     result.stats.frontiers = static_cast<int>(planner.view_.frontier().count());
@@ -332,14 +334,12 @@ struct InformedPlanner::Search {
 
 InformedPlanner::InformedPlanner(const InformedParams& params, const RobotModel& robot,
                                  double resolution_m)
-    : params_(params.resolvedFor(robot)),
+    : Remembering(InformedMemory(params.resolvedFor(robot))),
+      params_(params.resolvedFor(robot)),
       robot_(robot),
       view_(robot, resolution_m, viewParams(params_)),
       navigator_(navigationParams(params_)),
-      boxes_(robot.box_m),
-      growth_(params_),
-      scouting_(params_),
-      tried_(params_.tried_radius_m) {
+      boxes_(robot.box_m) {
   require(kindOf(robot) == RobotKind::kAerial, "InformedPlanner: for robots that fly");
 }
 
@@ -353,7 +353,7 @@ PlanResult InformedPlanner::doPlan(const PlanRequest& request) {
   if (!search.fliesOn()) search.explore();
   search.fillStats();
   search.result.stats.total_ms = watch.milliseconds();
-  return std::move(search.result);
+  return remembering(std::move(search.result), std::move(search.memory));
 }
 
 PlanResult InformedPlanner::doPlanHome(const PlanRequest& request) {
@@ -368,27 +368,12 @@ PlanResult InformedPlanner::doPlanHome(const PlanRequest& request) {
 }
 
 PlannerGraph InformedPlanner::graph() const {
-  return {{search_layer_, samples_layer_, growth_.graph().layer()}};
+  return {{search_layer_, samples_layer_, memory().growth.graph().layer()}};
 }
 
 void InformedPlanner::restore(const PlannerGraph& graph) {
   for (const GraphLayer& layer : graph.layers)
-    if (layer.name == "reachability") growth_.restore(layer);
-}
-
-void InformedPlanner::reset() {
-  view_.forget();
-  growth_ = GraphGrowth(params_);
-  scouting_ = Scouting(params_);
-  approaches_ = {};
-  tried_ = TriedTargets(params_.tried_radius_m);
-  visits_ = {};
-  proposal_.reset();
-  checked_map_.reset();
-  checked_zones_ = 0;
-  reopened_at_voxels_ = 0;
-  search_layer_ = {};
-  samples_layer_ = {};
+    if (layer.name == "reachability") memory().growth.restore(layer);
 }
 
 }  // namespace spelunk::planners::informed

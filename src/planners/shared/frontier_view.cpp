@@ -11,7 +11,7 @@ std::vector<SensorModel> withRange(std::vector<SensorModel> sensors, double rang
                                    double resolution_m) {
   constexpr double kDegree = M_PI / 180.0;
   for (SensorModel& sensor : sensors) {
-    sensor.gain_range_m = std::min(sensor.range_max_m, range_m);
+    sensor.gain_range_m = std::min(gainRange(sensor), range_m);
     sensor.gain_resolution_deg =
         std::clamp(resolution_m / sensor.gain_range_m / kDegree, 1.0, sensor.gain_resolution_deg);
     sensor.gain_row_angle_deg = 0.0;

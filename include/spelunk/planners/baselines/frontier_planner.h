@@ -9,6 +9,7 @@
 #include "spelunk/planners/baselines/frontier_planner_params.h"
 #include "spelunk/planners/exploration_planner.h"
 #include "spelunk/planners/shared/frontier_view.h"
+#include "spelunk/planners/shared/remembering.h"
 #include "spelunk/planners/shared/trail_home.h"
 #include "spelunk/planners/shared/tried_targets.h"
 #include "spelunk/planners/shared/visits.h"
@@ -25,6 +26,23 @@ enum class Preference {
              ///< "UE".
 };
 
+/// What a frontier planner has learnt.
+struct FrontierMemory {
+  struct Target {
+    Eigen::Vector3d voxel = Eigen::Vector3d::Zero();
+    Path path;
+    double gain_m3 = 0.0;
+  };
+
+  explicit FrontierMemory(double tried_radius_m) : tried(tried_radius_m) {}
+
+  TriedTargets tried;
+  Visits visits;
+  TrailHome trail;
+  std::optional<Target> target;
+  ReportedPath last;
+};
+
 /// Frontier-based exploration for robots that fly: every frontier voxel of the whole map is a
 /// possible target, there is no graph. Ways by navigation through known free space. Frontier
 /// voxels, places beside them and gains as Informed Exploration has them, so that the comparison is
@@ -34,7 +52,7 @@ enum class Preference {
 ///
 /// best_gain and gain_threshold of the stats are cubic metres of unknown space, 0 for kNearest.
 /// planHome(): by RRT-Connect or along the trail, whichever is shorter.
-class FrontierPlanner final : public ExplorationPlanner {
+class FrontierPlanner final : public Remembering<FrontierMemory> {
  public:
   FrontierPlanner(const FrontierPlannerParams& params, Preference preference,
                   const RobotModel& robot, double resolution_m);
@@ -43,14 +61,9 @@ class FrontierPlanner final : public ExplorationPlanner {
   [[nodiscard]] PlannerGraph graph() const override;
   /// There is no graph to take up.
   void restore(const PlannerGraph& graph) override;
-  void reset() override;
 
  private:
-  struct Target {
-    Eigen::Vector3d voxel = Eigen::Vector3d::Zero();
-    Path path;
-    double gain_m3 = 0.0;
-  };
+  using Target = FrontierMemory::Target;
   struct Search;
 
   PlanResult doPlan(const PlanRequest& request) override;
@@ -63,10 +76,7 @@ class FrontierPlanner final : public ExplorationPlanner {
   navigation::Navigator navigator_;
   navigation::Navigator home_navigator_;
   map::ConfigurationSpace boxes_;
-  TriedTargets tried_;
-  Visits visits_;
-  TrailHome trail_;
-  std::optional<Target> target_;
+  // Of the newest plan, taken or not; to be looked at.
   GraphLayer search_layer_;
   GraphLayer samples_layer_;
 };

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "spelunk/common/params.h"
+#include "spelunk/common/robot_model.h"
 #include "spelunk/navigation/navigator.h"
 
 namespace spelunk::planners::baselines {
@@ -27,7 +28,9 @@ struct FrontierPlannerParams {
   template <class Visitor>
   void visit(Visitor&& field) {
     field("way_method", way_method, Bounds{}, "how ways are planned: see navigation.method");
-    field("range_m", range_m, Bounds{0.5, 100.0}, "length of the rays of a gain", Audience::kUser);
+    field("range_m", range_m, Bounds{0.0, 500.0},
+          "length of the rays of a gain; 0: as far as the sensors see without gaps",
+          Audience::kUser);
     field("sample_spacing_m", sample_spacing_m, Bounds{0.1, 20.0},
           "candidates are at least this far apart");
     field("candidates", candidates, Bounds{1, 1000}, "of which the best is flown to");
@@ -46,8 +49,14 @@ struct FrontierPlannerParams {
     field("tried_radius_m", tried_radius_m, Bounds{0.1, 50.0},
           "targets this near to a failed one are the same");
   }
+  /// With range_m 0: that of denseRange(robot). Else as is.
+  [[nodiscard]] FrontierPlannerParams resolvedFor(const RobotModel& robot) const;
+
   /// Rules between fields, for the tree's problem list.
   [[nodiscard]] std::vector<std::string> problems() const;
+  /// The same between these parameters, the robot and the map's resolution.
+  [[nodiscard]] std::vector<std::string> problemsFor(const RobotModel& robot,
+                                                     double resolution_m) const;
 
   /// The defaults of "frontier_nearest" and "frontier_rrt_star"; those of a new struct are
   /// "frontier_utility"'s.

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "spelunk/common/params.h"
+#include "spelunk/common/robot_model.h"
 
 namespace spelunk::planners::baselines {
 
@@ -49,6 +50,9 @@ struct NbvpParams {
   }
   /// Rules between fields, for the tree's problem list.
   [[nodiscard]] std::vector<std::string> problems() const;
+  /// The same between these parameters, the robot and the map's resolution.
+  [[nodiscard]] std::vector<std::string> problemsFor(const RobotModel& robot,
+                                                     double resolution_m) const;
 };
 
 }  // namespace spelunk::planners::baselines

@@ -9,10 +9,22 @@
 #include "spelunk/map/volumetric_gain.h"
 #include "spelunk/planners/baselines/nbvp_params.h"
 #include "spelunk/planners/exploration_planner.h"
+#include "spelunk/planners/shared/remembering.h"
 #include "spelunk/planners/shared/trail_home.h"
 #include "spelunk/planners/shared/tried_targets.h"
 
 namespace spelunk::planners::baselines {
+
+/// What NBVP has learnt.
+struct NbvpMemory {
+  explicit NbvpMemory(double tried_radius_m) : tried(tried_radius_m) {}
+
+  TrailHome trail;
+  TriedTargets tried;
+  Path branch;              ///< The best branch of the newest tree, from its root on.
+  double executed_m = 0.0;  ///< Of it, that was proposed as a path.
+  ReportedPath last;
+};
 
 /// NBVP: Bircher, Kamel, Alexis, Oleynikova, Siegwart: Receding horizon "next-best-view" planner
 /// for 3D exploration, ICRA 2016, Algorithm 1, as Dang 2020, section 5, compares with it. A random
@@ -31,7 +43,7 @@ namespace spelunk::planners::baselines {
 /// best_gain of the stats is that of the best branch, gain_threshold the volume below which a place
 /// sees nothing; m3. planHome(): the shortest way along the robot's own trail and its short cuts,
 /// for the paper has none.
-class NbvpPlanner final : public ExplorationPlanner {
+class NbvpPlanner final : public Remembering<NbvpMemory> {
  public:
   /// `resolution_m`: of the maps it will be asked on.
   NbvpPlanner(const NbvpParams& params, const RobotModel& robot, double resolution_m);
@@ -40,7 +52,6 @@ class NbvpPlanner final : public ExplorationPlanner {
   [[nodiscard]] PlannerGraph graph() const override;
   /// Takes up "trail"; trees are not kept.
   void restore(const PlannerGraph& graph) override;
-  void reset() override;
 
  private:
   struct Search;
@@ -54,11 +65,7 @@ class NbvpPlanner final : public ExplorationPlanner {
   map::CredibleMap credible_;
   map::KeptWindow window_;  ///< Of the credible map.
   map::ConfigurationSpace boxes_;
-  TrailHome trail_;
-  TriedTargets tried_;
-  Path branch_;              ///< The best branch of the newest tree, from its root on.
-  double executed_m_ = 0.0;  ///< Of it, that was proposed as a path.
-  GraphLayer tree_layer_;
+  GraphLayer tree_layer_;  ///< Of the newest plan, taken or not; to be looked at.
 };
 
 }  // namespace spelunk::planners::baselines

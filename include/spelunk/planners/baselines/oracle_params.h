@@ -16,7 +16,7 @@ struct OracleParams {
 
   template <class Visitor>
   void visit(Visitor&& field) {
-    field("tour", tour, Bounds{}, "file of the tour: x_m,y_m,z_m in lines, in the world's frame",
+    field("tour", tour, Bounds{}, "file of the tour: x_m,y_m,z_m in lines, in the map's frame",
           Audience::kUser);
     field("look_ahead_m", look_ahead_m, Bounds{1.0, 1000.0}, "longest part of the tour proposed");
     field("reached_m", reached_m, Bounds{0.1, 20.0}, "a point of the tour counts as reached");

@@ -14,9 +14,31 @@
 #include "spelunk/planners/gbplanner/gb_planner_params.h"
 #include "spelunk/planners/gbplanner/local_search.h"
 #include "spelunk/planners/shared/global_graph.h"
+#include "spelunk/planners/shared/remembering.h"
 #include "spelunk/planners/shared/tried_targets.h"
 
 namespace spelunk::planners::gbplanner {
+
+/// What GBPlanner has learnt.
+struct GbMemory {
+  /// The newest path proposed by plan().
+  struct Proposal {
+    PathKind kind = PathKind::kLocal;
+    Eigen::Vector3d target = Eigen::Vector3d::Zero();  ///< The vertex it was chosen for.
+    Eigen::Vector3d end = Eigen::Vector3d::Zero();     ///< Where it ends: it may have been cut.
+  };
+
+  explicit GbMemory(const GbPlannerParams& params);
+
+  GlobalGraph global;
+  TriedTargets tried;
+  std::optional<Proposal> proposal;
+  ReportedPath last;
+  double trail_known_until_s;
+  std::shared_ptr<const map::FrozenMap> checked_map;
+  std::uint64_t checked_zones = 0;       ///< Their revision.
+  std::vector<map::ClosedPlace> closed;  ///< Where presumed ways turned out to lead nowhere.
+};
 
 /// GBPlanner for aerial robots: Dang, Tranzatto, Khattak, Mascarich, Alexis, Hutter: Graph-based
 /// Subterranean Exploration Path Planning using Aerial and Legged Robots. Journal of Field Robotics
@@ -25,22 +47,15 @@ namespace spelunk::planners::gbplanner {
 /// plan(): the local planner; on local completion the global planner, by itself. best_gain and
 /// gain_threshold of the stats are discounted m3 (eq. 1 without the similarity factor).
 /// planHome(): the shortest checked way in the global graph.
-class GbPlanner final : public ExplorationPlanner {
+class GbPlanner final : public Remembering<GbMemory> {
  public:
   /// `resolution_m`: of the maps it will be asked on.
   GbPlanner(const GbPlannerParams& params, const RobotModel& robot, double resolution_m);
 
   [[nodiscard]] PlannerGraph graph() const override;
   void restore(const PlannerGraph& graph) override;
-  void reset() override;
 
  private:
-  /// The newest path proposed by plan().
-  struct Proposal {
-    PathKind kind = PathKind::kLocal;
-    Eigen::Vector3d target = Eigen::Vector3d::Zero();  ///< The vertex it was chosen for.
-    Eigen::Vector3d end = Eigen::Vector3d::Zero();     ///< Where it ends: it may have been cut.
-  };
   struct Search;
 
   PlanResult doPlan(const PlanRequest& request) override;
@@ -53,14 +68,7 @@ class GbPlanner final : public ExplorationPlanner {
   map::KeptWindow window_;  ///< Of the credible map.
   map::ConfigurationSpace body_;
   map::ConfigurationSpace roomy_;  ///< With the safety margin.
-  GlobalGraph global_;
-  TriedTargets tried_;
-  std::optional<Proposal> proposal_;
-  double trail_known_until_s_;
-  std::shared_ptr<const map::FrozenMap> checked_map_;
-  std::size_t checked_zones_ = 0;
-  std::vector<map::ClosedPlace> closed_;  ///< Where presumed ways turned out to lead nowhere.
-  GraphLayer local_layer_;
+  GraphLayer local_layer_;         ///< Of the newest plan, taken or not; to be looked at.
 };
 
 }  // namespace spelunk::planners::gbplanner

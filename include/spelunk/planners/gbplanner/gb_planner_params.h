@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "spelunk/common/params.h"
+#include "spelunk/common/robot_model.h"
 
 namespace spelunk::planners::gbplanner {
 
@@ -116,6 +117,9 @@ struct GbPlannerParams {
 
   /// Rules between fields, for the tree's problem list.
   [[nodiscard]] std::vector<std::string> problems() const;
+  /// The same between these parameters, the robot and the map's resolution.
+  [[nodiscard]] std::vector<std::string> problemsFor(const RobotModel& robot,
+                                                     double resolution_m) const;
 };
 
 }  // namespace spelunk::planners::gbplanner

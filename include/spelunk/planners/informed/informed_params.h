@@ -98,6 +98,9 @@ struct InformedParams {
 
   /// Rules between fields, for the tree's problem list.
   [[nodiscard]] std::vector<std::string> problems() const;
+  /// The same between these parameters, the robot and the map's resolution.
+  [[nodiscard]] std::vector<std::string> problemsFor(const RobotModel& robot,
+                                                     double resolution_m) const;
 };
 
 }  // namespace spelunk::planners::informed

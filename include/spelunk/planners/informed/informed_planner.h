@@ -13,10 +13,36 @@
 #include "spelunk/planners/informed/informed_params.h"
 #include "spelunk/planners/informed/scouting.h"
 #include "spelunk/planners/shared/frontier_view.h"
+#include "spelunk/planners/shared/remembering.h"
 #include "spelunk/planners/shared/tried_targets.h"
 #include "spelunk/planners/shared/visits.h"
 
 namespace spelunk::planners::informed {
+
+/// What Informed Exploration has learnt.
+struct InformedMemory {
+  /// The newest path proposed by plan().
+  struct Proposal {
+    Path path;
+    PathKind kind = PathKind::kLocal;
+    double gain_m3 = 0.0;
+    Eigen::Vector3d voxel = Eigen::Vector3d::Zero();  ///< The frontier voxel it is for.
+  };
+
+  explicit InformedMemory(const InformedParams& params)
+      : growth(params), scouting(params), tried(params.tried_radius_m) {}
+
+  GraphGrowth growth;
+  Scouting scouting;
+  Approaches approaches;
+  TriedTargets tried;
+  Visits visits;
+  std::optional<Proposal> proposal;
+  ReportedPath last;
+  std::shared_ptr<const map::FrozenMap> checked_map;
+  std::uint64_t checked_zones = 0;  ///< Their revision.
+  std::size_t reopened_at_voxels = 0;
+};
 
 /// Informed Exploration for robots that fly: Akbari and Bernardini, Informed Autonomous Exploration
 /// of Subterranean Environments, IEEE Robotics and Automation Letters, 2021.
@@ -26,7 +52,7 @@ namespace spelunk::planners::informed {
 /// reachability graph's |V| and |E|; vertices counts the samples and the states of the trees that
 /// were grown to them.
 /// planHome(): GoHome, along the reachability graph, else by the motion planner.
-class InformedPlanner final : public ExplorationPlanner {
+class InformedPlanner final : public Remembering<InformedMemory> {
  public:
   /// `resolution_m`: of the maps it will be asked on. Throws Precondition for a robot with legs.
   InformedPlanner(const InformedParams& params, const RobotModel& robot, double resolution_m);
@@ -35,16 +61,9 @@ class InformedPlanner final : public ExplorationPlanner {
   /// "reachability".
   [[nodiscard]] PlannerGraph graph() const override;
   void restore(const PlannerGraph& graph) override;
-  void reset() override;
 
  private:
-  /// The newest path proposed by plan().
-  struct Proposal {
-    Path path;
-    PathKind kind = PathKind::kLocal;
-    double gain_m3 = 0.0;
-    Eigen::Vector3d voxel = Eigen::Vector3d::Zero();  ///< The frontier voxel it is for.
-  };
+  using Proposal = InformedMemory::Proposal;
   struct Search;
 
   PlanResult doPlan(const PlanRequest& request) override;
@@ -55,15 +74,7 @@ class InformedPlanner final : public ExplorationPlanner {
   FrontierView view_;
   navigation::Navigator navigator_;
   map::ConfigurationSpace boxes_;
-  GraphGrowth growth_;
-  Scouting scouting_;
-  Approaches approaches_;
-  TriedTargets tried_;
-  Visits visits_;
-  std::optional<Proposal> proposal_;
-  std::shared_ptr<const map::FrozenMap> checked_map_;
-  std::size_t checked_zones_ = 0;
-  std::size_t reopened_at_voxels_ = 0;
+  // Of the newest plan, taken or not; to be looked at.
   GraphLayer search_layer_;
   GraphLayer samples_layer_;
 };

@@ -25,11 +25,18 @@ class Visits {
  public:
   void expect(const Visit& visit);
 
-  /// The targets the robot has come by since they were chosen; they are expected no longer.
-  [[nodiscard]] std::vector<Visit> takeMade(const PlanRequest& request);
+  /// The targets the robot has come by since they were chosen; they are expected no longer. Told by
+  /// the trail and, as a robot that moves to and fro leaves none, by where earlier plans began.
+  /// `last`: what became of the path that was reported last.
+  [[nodiscard]] std::vector<Visit> takeMade(const PlanRequest& request, PathOutcome last);
 
  private:
+  void noteStart(const PlanRequest& request, PathOutcome last);
+  [[nodiscard]] bool isMade(const Visit& visit, const PlanRequest& request,
+                            PathOutcome last) const;
+
   std::vector<Visit> expected_;
+  std::vector<StampedPose> starts_;  ///< Of the latest plans, oldest first.
 };
 
 }  // namespace spelunk::planners
