@@ -67,7 +67,7 @@ void Mission::Impl::checkInputs() {
 void Mission::Impl::checkPath() {
   if (flight.isIgnored(watch.pose(), now)) {
     say(LogLevel::kWarn, "ignored", kIgnored);
-    happens(Event::kPathIgnored, kIgnored);
+    happens(Event::kPathIgnored, withDoubt(kIgnored));
     resume_s = now + kSendAgain_s;
     return;
   }

@@ -34,9 +34,9 @@ class Install(InFreshShell):
 
     def test_their_own_configuration_is_read(self):
         path = self.prefix / "share" / "spelunk" / "config" / "map.yaml"
-        path.write_text("map: {resolution_m: 0.4375}\n")
+        path.write_text("map: {resolution_m: 0.375}\n")
         said = self.assert_runs("rosrun spelunk mission --list-params")
-        self.assertRegex(said, r"map\.resolution_m +0\.4375 ")
+        self.assertRegex(said, r"map\.resolution_m +0\.375 ")
 
     def test_mission_flies_and_draws(self):
         self.assert_runs("rosrun spelunk mission --world room --time-limit-s 25 --out there")

@@ -61,9 +61,9 @@ class Refusals(InFreshShell):
                 self.assert_refuses("world:=room overrides:=mine.yaml", words)
 
     def test_all_problems_come_at_once(self):
-        (self.folder / "mine.yaml").write_text("map: {resolution_m: 50, resoluton_m: 1}\n")
+        (self.folder / "mine.yaml").write_text("map: {hit_probability: 2, resoluton_m: 1}\n")
         self.assert_refuses("world:=room overrides:=mine.yaml",
-                            ["2 problem(s)", "[0.02, 2]", "map.resoluton_m"])
+                            ["2 problem(s)", "[0.5, 1]", "map.resoluton_m"])
 
     def test_no_master(self):
         for node in ("planner_node", "sim_node"):
