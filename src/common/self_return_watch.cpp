@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdio>
+#include <utility>
 
 #include "spelunk/common/box.h"
 
@@ -157,11 +158,15 @@ void SelfReturnWatch::judgeAtRest(const Eigen::Isometry3d& T_base_sensor) {
 void SelfReturnWatch::judgeAfterMotion(const std::vector<Eigen::Vector3f>& points,
                                        const Eigen::Isometry3d& T_base_sensor,
                                        const Eigen::Isometry3d& T_world_base) {
-  finding_.clear();
   doubt_.clear();
-  if (scans_ < kScansInMotion) return;
-  const std::vector<Eigen::Vector3d> own = ownPlaces(points, T_base_sensor, T_world_base);
-  if (own.size() < kPlacesLeast) return;
+  if (scans_ < kScansInMotion) return finding_.clear();
+  const std::vector<Eigen::Vector3d> suspected =
+      std::exchange(suspected_, ownPlaces(points, T_base_sensor, T_world_base));
+  if (suspected_.size() < kPlacesLeast) return finding_.clear();
+  std::vector<Eigen::Vector3d> own;
+  for (const Eigen::Vector3d& place : suspected_)
+    if (countNear(place, suspected) > 0) own.push_back(place);
+  if (own.size() < kPlacesLeast) return;  // the next motion will tell
   const Spread spread = spreadOf(own, T_base_sensor);
   finding_ = "returns " + metres(spread.nearest_m) + " to " + metres(spread.farthest_m) +
              " m from the sensor move with the robot, they are its own parts" + remedyFor(spread);

@@ -13,7 +13,8 @@ namespace spelunk {
 
 /// Notices returns from the robot's own parts in the scans of one sensor: what is near, stays at
 /// the same place of the robot from scan to scan, and is not there any more where the robot was.
-/// A wall or floor beside which it moves also stays beside it, but is still seen where it was.
+/// A wall or floor beside which it moves also stays beside it, but is still seen where it was. Two
+/// motions in a row have to show it: the rim of a wall is taken for a part once in a while.
 /// Returns that the map drops anyway (too near the sensor, inside the body) do not count.
 /// Not thread-safe.
 class SelfReturnWatch {
@@ -66,6 +67,7 @@ class SelfReturnWatch {
   std::map<Cell, Hits> cells_;
   int scans_ = 0;  ///< Since the anchor.
   bool has_moved_ = false;
+  std::vector<Eigen::Vector3d> suspected_;           ///< Own places by the last motion, base frame.
   std::optional<Eigen::Isometry3d> T_world_anchor_;  ///< The base when counting began.
   std::string finding_;
   std::string doubt_;
