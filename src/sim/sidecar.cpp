@@ -7,6 +7,7 @@
 #include <string>
 
 #include "spelunk/common/contract.h"
+#include "spelunk/common/log.h"
 
 namespace spelunk::sim {
 namespace {
@@ -20,7 +21,7 @@ constexpr const char* kUp =
     "must hold \"up\": \"x\", \"y\" or \"z\", the mesh's axis that points up";
 constexpr const char* kBounds =
     "must hold \"bounds\": [[x, y, z], [x, y, z]], the lowest and the highest corner of what is to "
-    "be explored, in metres";
+    "be explored, in metres, or the same six numbers in one list";
 
 [[noreturn]] void refuse(const std::filesystem::path& path, const std::string& reason) {
   throw OutsideError(path.string() + ": " + reason);
@@ -57,11 +58,15 @@ UpAxis upOf(const Json& json, const std::filesystem::path& path) {
 }
 
 AxisAlignedBox boundsOf(const Json& json, const std::filesystem::path& path) {
-  if (!json.is_array() || json.size() != 2) refuse(path, kBounds);
-  const auto low = numbersOf<3>(json[0]);
-  const auto high = numbersOf<3>(json[1]);
-  if (!low || !high) refuse(path, kBounds);
-  const AxisAlignedBox box{{(*low)[0], (*low)[1], (*low)[2]}, {(*high)[0], (*high)[1], (*high)[2]}};
+  Json numbers = json;
+  if (json.is_array() && json.size() == 2 && json[0].is_array() && json[1].is_array()) {
+    numbers = json[0];
+    numbers.insert(numbers.end(), json[1].begin(), json[1].end());
+  }
+  const auto corners = numbersOf<6>(numbers);
+  if (!corners) refuse(path, kBounds);
+  const auto& c = *corners;
+  const AxisAlignedBox box{{c[0], c[1], c[2]}, {c[3], c[4], c[5]}};
   if ((box.min.array() >= box.max.array()).any()) refuse(path, kBounds);
   return box;
 }
@@ -87,9 +92,9 @@ Sidecar readSidecar(const std::filesystem::path& mesh_path) {
     else if (key == "bounds")
       sidecar.bounds = boundsOf(value, path);
     else if (key != "artifacts")
-      refuse(path, "does not know \"" + key +
-                       "\"; it may hold start, scale, up, bounds and artifacts. Correct the key or "
-                       "remove it");
+      log(LogLevel::kWarn, path.string() + ": \"" + key +
+                               "\" is not known and not used; start, scale, up, bounds and "
+                               "artifacts are");
   }
   return sidecar;
 }

@@ -108,14 +108,27 @@ TEST(MeshFrame, RefusesWhatIsNoScaleOrAxis) {
 TEST(Sidecar, BoundsLimitExploration) {
   const TemporaryFolder folder;
   const std::string path = folder.write("mine.obj", objBox({0, 0, 0}, {20, 10, 4}));
-  folder.write("mine.json", R"({"bounds": [[1, 2, 0], [9, 8, 3.5]], "artifacts": []})");
-  const auto bounds = loadWorldMesh(path).exploration_bounds;
-  ASSERT_TRUE(bounds);
-  EXPECT_EQ(bounds->min, Eigen::Vector3d(1, 2, 0));
-  EXPECT_EQ(bounds->max, Eigen::Vector3d(9, 8, 3.5));
+  for (const std::string text : {R"({"bounds": [[1, 2, 0], [9, 8, 3.5]], "artifacts": []})",
+                                 R"({"bounds": [1, 2, 0, 9, 8, 3.5]})"}) {
+    folder.write("mine.json", text);
+    const auto bounds = loadWorldMesh(path).exploration_bounds;
+    ASSERT_TRUE(bounds) << text;
+    EXPECT_EQ(bounds->min, Eigen::Vector3d(1, 2, 0)) << text;
+    EXPECT_EQ(bounds->max, Eigen::Vector3d(9, 8, 3.5)) << text;
+  }
 }
 
-TEST(Sidecar, RefusesUnknownKeysAndWrongKindsWithTheRemedy) {
+TEST(Sidecar, SaysWhichKeysItDoesNotKnow) {
+  const TemporaryFolder folder;
+  const std::string path = folder.write("mine.obj", objBox({0, 0, 0}, {20, 10, 4}));
+  folder.write("mine.json", R"({"strat": [1, 1, 1, 0]})");
+  Recorder log;
+  EXPECT_FALSE(loadWorldMesh(path).start);
+  EXPECT_TRUE(has(log.warnings, "mine.json: \"strat\" is not known and not used; start, scale, up"))
+      << log.warnings;
+}
+
+TEST(Sidecar, RefusesWrongKindsWithTheRemedy) {
   const TemporaryFolder folder;
   const std::string path = folder.write("mine.obj", objBox({0, 0, 0}, {20, 10, 4}));
   const std::vector<std::pair<std::string, std::string>> cases{
@@ -124,10 +137,9 @@ TEST(Sidecar, RefusesUnknownKeysAndWrongKindsWithTheRemedy) {
       {R"({"scale": 1e999})", "mine.json"},
       {R"({"up": "up"})", "\"x\", \"y\" or \"z\""},
       {R"({"up": 1})", "\"x\", \"y\" or \"z\""},
-      {R"({"bounds": [0, 0, 0, 1, 1, 1]})", "[[x, y, z], [x, y, z]]"},
+      {R"({"bounds": [0, 0, 0, 1, 1]})", "[[x, y, z], [x, y, z]]"},
       {R"({"bounds": [[0, 0, 0], [1, -1, 1]]})", "the lowest and the highest corner"},
-      {R"({"start": {"x": 1}})", "[x, y, z, yaw]"},
-      {R"({"strat": [1, 1, 1, 0]})", "does not know \"strat\"; it may hold start, scale, up"}};
+      {R"({"start": {"x": 1}})", "[x, y, z, yaw]"}};
   for (const auto& [text, remedy] : cases) {
     folder.write("mine.json", text);
     const std::string error = errorOf([&] { (void)loadWorldMesh(path); });
