@@ -36,8 +36,8 @@ SPELUNK_WIDE WideAxis axisOf(double from, __m512d direction, int size, std::int6
   const __mmask8 is_up = _mm512_cmp_pd_mask(direction, zero, _CMP_GT_OQ);
   const __mmask8 is_level = _mm512_cmp_pd_mask(direction, zero, _CMP_EQ_OQ);
   const double cell = std::floor(from);
-  const __m512d to_next = _mm512_mask_blend_pd(is_up, _mm512_set1_pd(from - cell),
-                                               _mm512_set1_pd(cell + 1.0 - from));
+  const __m512d to_next =
+      _mm512_mask_blend_pd(is_up, _mm512_set1_pd(from - cell), _mm512_set1_pd(cell + 1.0 - from));
   const __m512d to_exit =
       _mm512_mask_blend_pd(is_up, _mm512_set1_pd(from), _mm512_set1_pd(size - from));
   WideAxis axis;
@@ -58,8 +58,8 @@ SPELUNK_WIDE void step(WideAxis& axis, __mmask8 lanes, __m512i& at) {
 SPELUNK_WIDE __mmask8 clearOf(__m512i at, __mmask8 going, const VoxelGrid& grid) {
   const __m512i words = _mm512_mask_i64gather_epi64(_mm512_setzero_si512(), going,
                                                     _mm512_srli_epi64(at, 6), grid.words(), 8);
-  const __m512i bits = _mm512_sllv_epi64(_mm512_set1_epi64(1),
-                                         _mm512_and_si512(at, _mm512_set1_epi64(63)));
+  const __m512i bits =
+      _mm512_sllv_epi64(_mm512_set1_epi64(1), _mm512_and_si512(at, _mm512_set1_epi64(63)));
   return _mm512_mask_testn_epi64_mask(going, words, bits);
 }
 
@@ -83,8 +83,8 @@ __attribute__((target("avx512f"))) std::size_t markEight(const RayBlock& rays, s
   const std::int64_t row = size.x();
   WideAxis x = axisOf(from.x(), _mm512_maskz_load_pd(going, &rays.x[first]), size.x(), 1);
   WideAxis y = axisOf(from.y(), _mm512_maskz_load_pd(going, &rays.y[first]), size.y(), row);
-  WideAxis z = axisOf(from.z(), _mm512_maskz_load_pd(going, &rays.z[first]), size.z(),
-                      row * size.y());
+  WideAxis z =
+      axisOf(from.z(), _mm512_maskz_load_pd(going, &rays.z[first]), size.z(), row * size.y());
   const __m512d exit = _mm512_min_pd(x.exit, _mm512_min_pd(y.exit, z.exit));
   const __m512d limit = _mm512_min_pd(_mm512_maskz_load_pd(going, &rays.length[first]),
                                       _mm512_sub_pd(exit, _mm512_set1_pd(kInside)));

@@ -45,8 +45,7 @@ void walkThrough(const RayWalk& walk, const VoxelIndex& start, const RayGrid& gr
 void walkThroughAll(const RayWalks& walks, const RayGrid& grid, WalkLanes lanes,
                     std::uint64_t* words) {
   if (lanes == WalkLanes::kEight) return walkThroughByEights(walks, grid, words);
-  for (std::size_t i = 0; i < walks.count; ++i)
-    walkThrough(walks.at(i), walks.start, grid, words);
+  for (std::size_t i = 0; i < walks.count; ++i) walkThrough(walks.at(i), walks.start, grid, words);
 }
 
 /// Eight blocks beside each other along x, by layer and block.

@@ -60,8 +60,8 @@ SPELUNK_WIDE_IF_POSSIBLE void setAxis(const AxisOfWalks& axis, const float* ends
     const double between = resolution / std::fabs(wide);
     next[i] = direction == 0.0F ? kNever : first;
     spacing[i] = direction == 0.0F ? kNever : between;
-    step[i] = static_cast<std::int32_t>(direction > 0.0F) -
-              static_cast<std::int32_t>(direction < 0.0F);
+    step[i] =
+        static_cast<std::int32_t>(direction > 0.0F) - static_cast<std::int32_t>(direction < 0.0F);
   }
 }
 

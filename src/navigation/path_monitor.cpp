@@ -71,8 +71,7 @@ void SweptIndex::addPiece(const Sweep& sweep) {
   const Eigen::Vector3i high = cellIndex(sweep.a.cwiseMax(sweep.b) + reach);
   for (int z = low.z(); z <= high.z(); ++z)
     for (int y = low.y(); y <= high.y(); ++y)
-      for (int x = low.x(); x <= high.x(); ++x)
-        addTo(pack(Eigen::Vector3i(x, y, z)), number);
+      for (int x = low.x(); x <= high.x(); ++x) addTo(pack(Eigen::Vector3i(x, y, z)), number);
 }
 
 void SweptIndex::addTo(std::uint64_t cell, std::uint32_t number) {

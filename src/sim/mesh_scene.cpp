@@ -167,8 +167,8 @@ inline float rangeTo(double height, double slope, float embree_range) {
 SPELUNK_WIDE_IF_POSSIBLE void findRanges(const Batch& batch, std::size_t count, float* ranges) {
   for (std::size_t k = 0; k < count; ++k) {
     const double x = batch.x[k], y = batch.y[k], z = batch.z[k];
-    const double slope = batch.normal_x[k] * x +
-                         (batch.normal_y[k] * y + batch.normal_z[k] * z);  // as Eigen adds
+    const double slope =
+        batch.normal_x[k] * x + (batch.normal_y[k] * y + batch.normal_z[k] * z);  // as Eigen adds
     ranges[k] = rangeTo(batch.height[k], slope, batch.embree_range[k]);
   }
 }
@@ -235,7 +235,7 @@ struct MeshScene::Impl {
   }
 
   WorldMesh mesh;
-  std::vector<Plane> planes;  ///< One a triangle.
+  std::vector<Plane> planes;                     ///< One a triangle.
   Plane no_plane{Eigen::Vector3d::Zero(), 0.0};  ///< Leaves the range of a miss as it is.
   RTCDevice device;
   RTCScene scene = nullptr;
@@ -266,8 +266,7 @@ void MeshScene::castFan(const Eigen::Vector3f& origin,
     for (std::size_t k = 0; k < filled; ++k) aim(batch, k * kPacket, range_max, packets[k]);
     rtcIntersectNM(impl_->scene, &context, reinterpret_cast<RTCRayHitN*>(packets.data()), kPacket,
                    static_cast<unsigned>(filled), sizeof(RTCRayHit8));
-    for (std::size_t k = 0; k < filled; ++k)
-      impl_->takeHits(packets[k], from, k * kPacket, batch);
+    for (std::size_t k = 0; k < filled; ++k) impl_->takeHits(packets[k], from, k * kPacket, batch);
     findRanges(batch, count, &ranges[first]);
   }
 }

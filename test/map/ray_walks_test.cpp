@@ -29,7 +29,8 @@ RayWalks walksFrom(const Eigen::Vector3f& origin, int rays, float reach, Rng& rn
     Eigen::Vector3f end = origin + Eigen::Vector3f(draw(), draw(), 0.2F * draw());
     if (i % 7 == 0) end.y() = origin.y();  // along an axis plane
     const VoxelIndex voxel = voxelOf(end.cast<double>(), 1.0 / params.resolution_m);
-    if (i % 11 == 0) end = ((voxel.cast<double>().array() + 0.5) * params.resolution_m).cast<float>();
+    if (i % 11 == 0)
+      end = ((voxel.cast<double>().array() + 0.5) * params.resolution_m).cast<float>();
     ends.set(ends.count++, end, voxel);
   }
   RayWalks walks;

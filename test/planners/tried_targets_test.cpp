@@ -100,7 +100,8 @@ TEST(Visits, AreMadeByARobotThatMovesToAndFroAndLeavesNoTrail) {
   for (const double time_s : {101.0, 102.0, 102.9}) {
     request.time_s = time_s;
     request.pose.position = time_s == 101.0 ? kTarget : away;
-    EXPECT_TRUE(visits.takeMade(request, PathOutcome::kReplaced).empty()) << "it has not looked around there by " << time_s;
+    EXPECT_TRUE(visits.takeMade(request, PathOutcome::kReplaced).empty())
+        << "it has not looked around there by " << time_s;
   }
   request.time_s = 103.0;
   EXPECT_EQ(visits.takeMade(request, PathOutcome::kReplaced).size(), 1U);

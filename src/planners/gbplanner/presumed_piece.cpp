@@ -7,7 +7,7 @@ namespace {
 
 using graph::VertexId;
 
-constexpr double kCost = 0.5;          // of a metre flown, in metres nearer
+constexpr double kCost = 0.5;  // of a metre flown, in metres nearer
 
 }  // namespace
 

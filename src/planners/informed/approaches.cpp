@@ -9,9 +9,9 @@
 namespace spelunk::planners::informed {
 namespace {
 
-constexpr int kTargetsMax = 30;      // whose gain is counted, nearest first
+constexpr int kTargetsMax = 30;  // whose gain is counted, nearest first
 constexpr double kSameTarget_m = 4.0;
-constexpr int kAttempts = 4;         // ways that turn out closed, in one plan
+constexpr int kAttempts = 4;          // ways that turn out closed, in one plan
 constexpr double kBesideWay_m = 1.0;  // where places are looked for
 constexpr double kPlaceStep_m = 0.25;
 constexpr double kGapMax_m = 2.0;  // along the way without a place; farther on is unknown
@@ -71,10 +71,9 @@ std::optional<Approaches::Target> Approaches::bestOf(const std::vector<Eigen::Ve
   std::vector<Target> counted;
   for (Target& target : targets) {
     if (static_cast<int>(counted.size()) >= kTargetsMax) break;
-    const bool is_same =
-        std::any_of(counted.begin(), counted.end(), [&](const Target& other) {
-          return (other.place - target.place).norm() < kSameTarget_m;
-        });
+    const bool is_same = std::any_of(counted.begin(), counted.end(), [&](const Target& other) {
+      return (other.place - target.place).norm() < kSameTarget_m;
+    });
     if (is_same) continue;
     target.gain_m3 = judge.gainAt(target.place);
     counted.push_back(target);

@@ -19,7 +19,8 @@ class PlaceFinder {
   [[nodiscard]] std::optional<Eigen::Vector3d> find(const Eigen::Vector3d& point,
                                                     const FreeSpace& space) const;
 
-  /// The nearest place that also keeps the safe distance; where there is none, the nearest free one.
+  /// The nearest place that also keeps the safe distance; where there is none, the nearest free
+  /// one.
   [[nodiscard]] std::optional<Eigen::Vector3d> findRoomy(const Eigen::Vector3d& point,
                                                          const KnownSpace& space) const;
 

@@ -32,8 +32,7 @@ class Visits {
 
  private:
   void noteStart(const PlanRequest& request, PathOutcome last);
-  [[nodiscard]] bool isMade(const Visit& visit, const PlanRequest& request,
-                            PathOutcome last) const;
+  [[nodiscard]] bool isMade(const Visit& visit, const PlanRequest& request, PathOutcome last) const;
 
   std::vector<Visit> expected_;
   std::vector<StampedPose> starts_;  ///< Of the latest plans, oldest first.
