@@ -61,6 +61,13 @@ Path resampled(const Path& path, double spacing_m) {
 
 Path reversed(const Path& path) { return Path(path.rbegin(), path.rend()); }
 
+Path joined(Path path, const Path& more) {
+  constexpr double kSamePlace_m = 1e-6;
+  for (const Pose& pose : more)
+    if (path.empty() || distance(path.back(), pose) > kSamePlace_m) path.push_back(pose);
+  return path;
+}
+
 PathProjection project(const Path& path, const Eigen::Vector3d& point) {
   require(!path.empty(), "project: empty path");
   PathProjection best{0.0, (path.front().position - point).norm()};

@@ -40,6 +40,13 @@ double longestRange(const RobotModel& robot) {
   return range;
 }
 
+double lookVolume(const RobotModel& robot) {
+  double volume = 0.0;
+  for (const SensorModel& sensor : robot.sensor_models)
+    volume = std::max(volume, lookVolume(sensor));
+  return volume;
+}
+
 bool seesAllAround(const RobotModel& robot) {
   return std::any_of(robot.sensor_models.begin(), robot.sensor_models.end(),
                      [](const SensorModel& sensor) { return seesAllAround(sensor); });
@@ -76,7 +83,8 @@ std::vector<std::string> RobotModel::problems() const {
   if (kind == "legged" && ride_height_m <= 0.0)
     found.push_back("robot.ride_height_m = " + toText(ride_height_m) +
                     ": a legged robot carries its base above the ground; say how high");
-  (void)selfFilterBoxes(*this, &found);
+  if (const std::string problem = selfFilterBoxes(*this).problem; !problem.empty())
+    found.push_back(problem);
   return found;
 }
 

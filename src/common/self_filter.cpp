@@ -21,13 +21,10 @@ std::optional<double> numberOf(const std::string& text) {
 
 }  // namespace
 
-std::vector<AxisAlignedBox> selfFilterBoxes(const RobotModel& robot,
-                                            std::vector<std::string>* problems) {
+SelfFilterBoxes selfFilterBoxes(const RobotModel& robot) {
   const std::vector<std::string>& texts = robot.self_filter_boxes_m;
-  const auto complain = [&](const std::string& what) {
-    if (problems != nullptr)
-      problems->push_back("robot '" + robot.name + "': self_filter_boxes_m " + what);
-    return std::vector<AxisAlignedBox>();
+  const auto complain = [&](const std::string& what) -> SelfFilterBoxes {
+    return {{}, "robot '" + robot.name + "': self_filter_boxes_m " + what};
   };
   if (texts.size() % kNumbersOfBox != 0)
     return complain("has " + std::to_string(texts.size()) +
@@ -38,14 +35,14 @@ std::vector<AxisAlignedBox> selfFilterBoxes(const RobotModel& robot,
     if (!number) return complain("holds '" + text + "', which is not a number");
     numbers.push_back(*number);
   }
-  std::vector<AxisAlignedBox> boxes;
+  SelfFilterBoxes read;
   for (std::size_t i = 0; i < numbers.size(); i += kNumbersOfBox) {
     const Eigen::Vector3d size(numbers[i + 3], numbers[i + 4], numbers[i + 5]);
     if (size.minCoeff() <= 0.0)
       return complain("has a box of size " + toText(size) + ", sizes must be above 0");
-    boxes.push_back(boxAround({numbers[i], numbers[i + 1], numbers[i + 2]}, size));
+    read.boxes.push_back(boxAround({numbers[i], numbers[i + 1], numbers[i + 2]}, size));
   }
-  return boxes;
+  return read;
 }
 
 std::vector<Eigen::Vector3f> SelfFilter::without(std::vector<Eigen::Vector3f> points,

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <cstdio>
 #include <utility>
 
 #include "spelunk/common/box.h"
+#include "spelunk/common/message_text.h"
 
 namespace spelunk {
 namespace {
@@ -55,11 +55,7 @@ Sight sightOf(const Eigen::Vector3d& p_sensor, double was_m,
   return sight;
 }
 
-std::string metres(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.2f", value);
-  return text;
-}
+std::string metres(double value) { return withNumber("%.2f", value); }
 
 }  // namespace
 

@@ -77,6 +77,16 @@ double gainRange(const SensorModel& sensor) {
   return sensor.gain_range_m > 0.0 ? sensor.gain_range_m : sensor.range_max_m;
 }
 
+double lookVolume(const SensorModel& sensor) {
+  const VerticalField field = verticalField(sensor);
+  const double row_deg =
+      sensor.gain_row_angle_deg > 0.0 ? sensor.gain_row_angle_deg : sensor.gain_resolution_deg;
+  const double height_deg = std::max(field.width(), row_deg);
+  const double half = 0.5 * height_deg * kDegree;
+  const double band = 2.0 * std::cos(field.middle() * kDegree) * std::sin(half);
+  return sensor.fov_horizontal_deg * kDegree * band * std::pow(gainRange(sensor), 3) / 3.0;
+}
+
 bool seesAllAround(const SensorModel& sensor) {
   constexpr double kGap_deg = 1.0;  // what is not seen matters to nobody
   constexpr double kVertical = 1e-9;

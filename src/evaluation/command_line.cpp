@@ -33,9 +33,7 @@ std::optional<Pose> startIn(const std::string& text) {
 }
 
 Pose startOf(const std::string& text, const sim::WorldMesh& mesh, const Eigen::Vector3d& robot_m) {
-  if (const auto told = startIn(text)) return mesh.frame.written(*told);
-  if (mesh.start) return *mesh.start;
-  throw OutsideError(sim::missingStartText(mesh, robot_m, "--start "));
+  return sim::chooseStart(mesh, startIn(text), robot_m, "--start ");
 }
 
 sim::Surroundings surroundingsOf(const std::string& start, const RobotModel& robot,

@@ -184,18 +184,16 @@ void logToTerminal(bool quiet, const spelunk::LocalFrame& frame) {
   });
 }
 
-int fly(const Options& options, bool quiet) {
-  Loaded loaded = load(options);
-  spelunk::evaluation::requireWritable(options.out);
-  const spelunk::evaluation::FolderLock lock(options.out);
-  const auto mesh = spelunk::sim::openWorld(
+spelunk::sim::WorldMesh openWorld(const Options& options, const Loaded& loaded) {
+  return spelunk::sim::openWorld(
       options.world, loaded.share_dir + "/worlds", spelunk::sim::defaultCacheDir(),
       spelunk::sim::meshFrameOf(options.world_scale, options.world_up),
       spelunk::evaluation::surroundingsOf(options.start, loaded.config.robot, loaded.config.map,
                                           options.time_limit_s));
-  logToTerminal(quiet, mesh.frame);
-  if (const std::string text = spelunk::sayingOf(mesh.frame); !text.empty())
-    spelunk::log(spelunk::LogLevel::kInfo, text);
+}
+
+spelunk::evaluation::RunSetup setupFor(const Options& options, const Loaded& loaded,
+                                       const spelunk::sim::WorldMesh& mesh) {
   spelunk::evaluation::RunSetup setup;
   setup.robot = loaded.config.robot;
   setup.sim = loaded.sim;
@@ -212,7 +210,30 @@ int fly(const Options& options, bool quiet) {
     leg.target = mesh.frame.written(leg.target);
     setup.legs.push_back(leg);
   }
-  spelunk::evaluation::MissionRun run(setup, mesh, *loaded.planner);
+  return setup;
+}
+
+/// Everything that is left of a flight, in the folder of the results.
+void writeFiles(const Options& options, const Loaded& loaded, const spelunk::LocalFrame& frame,
+                const spelunk::evaluation::RunRecord& record, spelunk::map::OccupancyMap& map) {
+  spelunk::evaluation::writeReport(
+      options.out,
+      {options.planner, options.world, options.robot, options.seed, options.time_limit_s, frame},
+      record);
+  map.save(options.out + "/map.bt", frame);
+  spelunk::evaluation::writePlanView(*map.freeze(), frame, options.out + "/.plan_view");
+  plot(loaded.share_dir, options.out);
+}
+
+int fly(const Options& options, bool quiet) {
+  const Loaded loaded = load(options);
+  spelunk::evaluation::requireWritable(options.out);
+  const spelunk::evaluation::FolderLock lock(options.out);
+  const auto mesh = openWorld(options, loaded);
+  logToTerminal(quiet, mesh.frame);
+  if (const std::string text = spelunk::sayingOf(mesh.frame); !text.empty())
+    spelunk::log(spelunk::LogLevel::kInfo, text);
+  spelunk::evaluation::MissionRun run(setupFor(options, loaded, mesh), mesh, *loaded.planner);
   if (const auto leak = run.reachable().leak)
     spelunk::log(spelunk::LogLevel::kWarn, textOf(*leak, mesh.name));
   catchInterrupts();
@@ -221,14 +242,7 @@ int fly(const Options& options, bool quiet) {
     if (interrupted_by != 0) run.stop("interrupted by "s + strsignal(interrupted_by));
   });
   if (!quiet) sayResult(record, mesh.frame);
-  spelunk::evaluation::writeReport(options.out,
-                                   {options.planner, options.world, options.robot, options.seed,
-                                    options.time_limit_s, mesh.frame},
-                                   record);
-  run.mission().map().save(options.out + "/map.bt", mesh.frame);
-  spelunk::evaluation::writePlanView(*run.mission().map().freeze(), mesh.frame,
-                                     options.out + "/.plan_view");
-  plot(loaded.share_dir, options.out);
+  writeFiles(options, loaded, mesh.frame, record, run.mission().map());
   if (!quiet) std::printf("written to %s\n", options.out.c_str());
   if (interrupted_by != 0 && !record.returned_home) return kExitInterrupted;
   return record.ended_as_it_may ? EXIT_SUCCESS : kExitStranded;

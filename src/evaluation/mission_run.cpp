@@ -40,6 +40,7 @@ struct MissionRun::Impl {
        planners::ExplorationPlanner& run_planner)
       : setup(run_setup),
         planner(run_planner),
+        mesh_frame(mesh.frame),
         simulator(setup.sim, setup.robot, mesh, setup.start, setup.seed),
         mission(setup.mission, setup.robot, setup.map, setup.seed, setup.terrain),
         bounds(boundsOf(run_setup, mesh)),
@@ -80,6 +81,7 @@ struct MissionRun::Impl {
 
   RunSetup setup;
   planners::ExplorationPlanner& planner;
+  LocalFrame mesh_frame;
   sim::Simulator simulator;
   mission::Mission mission;
   AxisAlignedBox bounds;  ///< Of exploration.
@@ -205,7 +207,7 @@ void MissionRun::Impl::warmUp() {
 void MissionRun::Impl::begin() {
   if (!setup.legs.empty()) return nextLeg();
   if (const auto answer = mission.start(); !answer.accepted)
-    throw OutsideError("the mission does not start: " + answer.reason);
+    throw OutsideError("the mission does not start: " + mesh_frame.toCaller(answer.reason));
 }
 
 /// Sends the robot to the next point. A refusal ends the run as a leg that was not reached.

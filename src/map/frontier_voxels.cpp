@@ -112,13 +112,11 @@ std::size_t countOf(const Mask& mask) {
 template <class Visit>
 void forEachVoxel(const Mask& mask, const VoxelIndex& corner, const VoxelIndex& first,
                   const VoxelIndex& last, Visit&& visit) {
-  for (int z = 0; z < kBlockSide; ++z)
-    for (std::uint64_t bits = mask[static_cast<std::size_t>(z)]; bits != 0; bits &= bits - 1) {
-      const int bit = __builtin_ctzll(bits);
-      const VoxelIndex voxel = corner + VoxelIndex(bit & 7, bit >> 3, z);
-      if ((voxel.array() >= first.array()).all() && (voxel.array() <= last.array()).all())
-        visit(voxel);
-    }
+  forEachVoxel(mask, [&](const VoxelIndex& in_block) {
+    const VoxelIndex voxel = corner + in_block;
+    if ((voxel.array() >= first.array()).all() && (voxel.array() <= last.array()).all())
+      visit(voxel);
+  });
 }
 
 int floorToChunk(int index) { return index & ~(kChunkSide - 1); }

@@ -153,15 +153,12 @@ void FrozenMap::forEachOccupied(const AxisAlignedBox& region,
     for (int slot = 0; slot < 64; ++slot) {
       const VoxelIndex corner =
           unpackIndex(chunk->key) + 8 * VoxelIndex(slot & 3, (slot >> 2) & 3, slot >> 4);
-      const Mask& occupied = chunk->blocks[static_cast<std::size_t>(slot)].occupied;
-      for (int z = 0; z < kBlockSide; ++z)
-        for (std::uint64_t bits = occupied[static_cast<std::size_t>(z)]; bits != 0;
-             bits &= bits - 1) {
-          const int bit = __builtin_ctzll(bits);
-          const VoxelIndex voxel = corner + VoxelIndex(bit & 7, bit >> 3, z);
-          if ((voxel.array() >= first.array()).all() && (voxel.array() <= last.array()).all())
-            visit(voxel);
-        }
+      forEachVoxel(
+          chunk->blocks[static_cast<std::size_t>(slot)].occupied, [&](const VoxelIndex& in_block) {
+            const VoxelIndex voxel = corner + in_block;
+            if ((voxel.array() >= first.array()).all() && (voxel.array() <= last.array()).all())
+              visit(voxel);
+          });
     }
 }
 

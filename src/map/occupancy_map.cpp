@@ -40,6 +40,7 @@ struct OccupancyMap::Impl {
   void forget() {
     blocks = BlockMap(LogOdds(params));
     silence = {};
+    for (auto& [sensor, watch] : watches) watch.forget();
     frozen = nullptr;
     tree = nullptr;
   }
@@ -86,10 +87,8 @@ MapUpdate OccupancyMap::insert(const Scan& scan, const AxisAlignedBox& robot_bod
   }
   impl_->blocks.apply(impl_->marks, impl_->params.resolution_m, update);
   SilenceWatch* watch = impl_->watchOf(scan);
-  if (watch != nullptr && watch->takes(scan)) {
-    std::vector<PackedKey> looked_into = watch->voxelsLookedInto(scan, impl_->blocks);
-    impl_->silence.countLook(looked_into);
-  }
+  if (watch != nullptr && watch->takes(scan))
+    impl_->silence.countLook(watch->voxelsLookedInto(scan, impl_->blocks));
   return update;
 }
 
@@ -179,12 +178,9 @@ void OccupancyMap::loadSilence(const std::string& path) {
   std::vector<PackedKey> silent;
   for (std::size_t i = 0; i < loaded.blockCount(); ++i) {
     const VoxelBlock& block = loaded.block(i);
-    for (int z = 0; z < kBlockSide; ++z)
-      for (std::uint64_t bits = block.occupied[static_cast<std::size_t>(z)]; bits != 0;
-           bits &= bits - 1) {
-        const int bit = __builtin_ctzll(bits);
-        silent.push_back(block.key + packKey(bit & 7, bit >> 3, z));
-      }
+    forEachVoxel(block.occupied, [&](const VoxelIndex& in_block) {
+      silent.push_back(block.key + packKey(in_block.x(), in_block.y(), in_block.z()));
+    });
   }
   for (int look = 0; look < SilentVoxels::kLooks; ++look) impl_->silence.countLook(silent);
 }

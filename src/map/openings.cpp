@@ -46,13 +46,8 @@ void forEachSilent(const FrozenMap& map, Visit&& visit) {
     for (int slot = 0; slot < 64; ++slot) {
       const VoxelIndex corner =
           unpackIndex(chunk->key) + kBlockSide * VoxelIndex(slot & 3, (slot >> 2) & 3, slot >> 4);
-      const Mask& silent = chunk->blocks[static_cast<std::size_t>(slot)].silent;
-      for (int z = 0; z < kBlockSide; ++z)
-        for (std::uint64_t bits = silent[static_cast<std::size_t>(z)]; bits != 0;
-             bits &= bits - 1) {
-          const int bit = __builtin_ctzll(bits);
-          visit(VoxelIndex(corner + VoxelIndex(bit & 7, bit >> 3, z)));
-        }
+      forEachVoxel(chunk->blocks[static_cast<std::size_t>(slot)].silent,
+                   [&](const VoxelIndex& in_block) { visit(VoxelIndex(corner + in_block)); });
     }
 }
 

@@ -68,6 +68,9 @@ class SilenceWatch {
   /// Whether a scan is a look; if so, it is the last one.
   [[nodiscard]] bool takes(const Scan& scan);
 
+  /// The map is another one now: the next scan is a look wherever it is from.
+  void forget() { last_place_.reset(); }
+
   /// Unknown voxels on rays of `scan` that return nothing, behind free space; some repeatedly. Of
   /// a run of unknown voxels only the first kDepth: what gains ask for.
   [[nodiscard]] std::vector<PackedKey> voxelsLookedInto(const Scan& scan, const BlockMap& map);

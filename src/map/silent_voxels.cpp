@@ -13,7 +13,7 @@ SilentVoxels::Block& SilentVoxels::blockOf(PackedKey key) {
   return blocks_.back();
 }
 
-void SilentVoxels::countLook(std::vector<PackedKey>& voxels) {
+void SilentVoxels::countLook(std::vector<PackedKey> voxels) {
   std::sort(voxels.begin(), voxels.end());
   voxels.erase(std::unique(voxels.begin(), voxels.end()), voxels.end());
   for (const PackedKey voxel : voxels) {
@@ -31,10 +31,12 @@ void SilentVoxels::countLook(std::vector<PackedKey>& voxels) {
 }
 
 Mask SilentVoxels::silentIn(PackedKey voxel) const {
-  Mask silent{};
   const std::uint32_t number = table_.find(voxel & ~kInBlockMask);
-  if (number == KeyTable::kAbsent) return silent;
-  const Block& block = blocks_[number];
+  return number == KeyTable::kAbsent ? Mask{} : silentIn(blocks_[number]);
+}
+
+Mask SilentVoxels::silentIn(const Block& block) {
+  Mask silent{};
   for (std::size_t z = 0; z < silent.size(); ++z) silent[z] = block.low[z] & block.high[z];
   return silent;
 }
@@ -42,13 +44,9 @@ Mask SilentVoxels::silentIn(PackedKey voxel) const {
 std::vector<PackedKey> SilentVoxels::all() const {
   std::vector<PackedKey> voxels;
   for (const Block& block : blocks_)
-    for (int z = 0; z < kBlockSide; ++z) {
-      const auto word = static_cast<std::size_t>(z);
-      for (std::uint64_t bits = block.low[word] & block.high[word]; bits != 0; bits &= bits - 1) {
-        const int bit = __builtin_ctzll(bits);
-        voxels.push_back(block.key + packKey(bit & 7, bit >> 3, z));
-      }
-    }
+    forEachVoxel(silentIn(block), [&](const VoxelIndex& in_block) {
+      voxels.push_back(block.key + packKey(in_block.x(), in_block.y(), in_block.z()));
+    });
   return voxels;
 }
 

@@ -12,8 +12,8 @@ class SilentVoxels {
  public:
   static constexpr int kLooks = 3;  ///< The counters hold two bits.
 
-  /// Counts one look for each of these voxels. They are sorted, and counted once if listed twice.
-  void countLook(std::vector<PackedKey>& voxels);
+  /// Counts one look for each of these voxels; once for those that are listed twice.
+  void countLook(std::vector<PackedKey> voxels);
 
   /// The silent voxels of the block around a voxel.
   [[nodiscard]] Mask silentIn(PackedKey voxel) const;
@@ -34,6 +34,7 @@ class SilentVoxels {
     bool is_listed = false;
   };
   Block& blockOf(PackedKey key);
+  [[nodiscard]] static Mask silentIn(const Block& block);
 
   std::vector<Block> blocks_;
   KeyTable table_;

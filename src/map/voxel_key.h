@@ -84,6 +84,16 @@ IndexRange centresIn(double min, double max, double resolution, IndexRange limit
 /// One bit a voxel of a block.
 using Mask = std::array<std::uint64_t, kBlockSide>;
 
+/// Calls `visit` with the index within the block of every voxel whose bit is set, z slowest.
+template <class Visit>
+void forEachVoxel(const Mask& mask, Visit&& visit) {
+  for (int z = 0; z < kBlockSide; ++z)
+    for (std::uint64_t bits = mask[static_cast<std::size_t>(z)]; bits != 0; bits &= bits - 1) {
+      const int bit = __builtin_ctzll(bits);
+      visit(VoxelIndex(bit & 7, bit >> 3, z));
+    }
+}
+
 /// Hash table from packed keys to small numbers; never iterated, so no order can leak out of it.
 class KeyTable {
  public:

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "spelunk/mission/way_home.h"
+#include "spelunk/common/message_text.h"
 
 namespace spelunk::mission {
 namespace {

@@ -1,7 +1,8 @@
 #include "spelunk/mission/input_guard.h"
 
 #include <cmath>
-#include <cstdio>
+
+#include "spelunk/common/message_text.h"
 
 namespace spelunk::mission {
 namespace {
@@ -13,12 +14,6 @@ constexpr int kAgreeingReports = 5;
 bool isFiniteState(const RobotState& state) {
   return std::isfinite(state.stamp_s) && isFinite(state.pose) && state.velocity.allFinite() &&
          std::isfinite(state.yaw_rate) && state.orientation.coeffs().allFinite();
-}
-
-std::string withNumber(const char* format, double value) {
-  char text[160];
-  std::snprintf(text, sizeof text, format, value);
-  return text;
 }
 
 }  // namespace

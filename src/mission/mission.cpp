@@ -1,6 +1,5 @@
 #include "spelunk/mission/mission.h"
 
-#include <cstdio>
 #include <filesystem>
 
 #include "mission_impl.h"
@@ -33,12 +32,6 @@ Mission::Impl::Impl(const MissionParams& mission_params, const RobotModel& robot
 Path Mission::Impl::ofBase(Path path) const {
   for (Pose& pose : path) pose.position.z() -= robot.box_lift_m;
   return path;
-}
-
-std::string Mission::Impl::withNumber(const char* format, double value) {
-  char text[160];
-  std::snprintf(text, sizeof text, format, value);
-  return text;
 }
 
 MissionStatus Mission::Impl::status() const {
@@ -110,6 +103,7 @@ std::optional<Command> Mission::accept(const PlanOutcome& outcome, double now_s)
 void Mission::take(const PlanOutcome& outcome, double now_s) { impl_->take(outcome, now_s); }
 
 MissionStatus Mission::status() const { return impl_->status(); }
+bool Mission::isRunning() const { return mission::isRunning(impl_->task); }
 
 Path Mission::activePath() const {
   const auto& active = impl_->flight.active();
@@ -151,7 +145,7 @@ Answer Mission::save(const std::string& folder, const planners::PlannerGraph& gr
 }
 
 Answer Mission::load(const std::string& folder, planners::PlannerGraph* graph) {
-  if (isRunning(impl_->task)) return {false, "load: pause the mission first"};
+  if (isRunning()) return {false, "load: pause the mission first"};
   try {
     MissionRecord record = readRecord(folder);
     impl_->space.map().load(folder + "/map.ot");

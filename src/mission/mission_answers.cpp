@@ -8,9 +8,6 @@ namespace {
 using Kind = RunningJob::Kind;
 using planners::PlanStatus;
 
-/// A way home that begins farther from the robot does not begin where it is.
-constexpr double kRouteGap_m = 1.0;
-constexpr double kInTime_s = 1e-6;
 constexpr double kAskAfterEnd_s = 0.1;  // a tick: then the robot is at the end of its path
 
 }  // namespace
@@ -104,8 +101,8 @@ void Mission::Impl::noteFailure(const std::string& fault) {
 
 void Mission::Impl::acceptWayHome(const RunningJob& job, const planners::PlanResult& home) {
   desk.closeWayHomeRequest();
-  const bool is_late = flight.active() ? now > job.takes_over_s + kInTime_s
-                                       : distance(watch.pose(), job.pose) > kRouteGap_m;
+  const bool is_late = flight.active() ? !job.isInTime(now)
+                                       : distance(watch.pose(), job.pose) > WayHome::kBeginsHere_m;
   const bool is_found = home.status == PlanStatus::kOk && !is_late;
   if (job.kind == Kind::kNavigationsWayHome) {
     const auto leg = is_found && !flight.active() ? way_home.legOfFoundWay(home) : std::nullopt;

@@ -92,7 +92,6 @@ struct Mission::Impl {
   [[nodiscard]] bool mayMove() const { return inputs_ok && now >= resume_s; }
   /// A path of the robot's box as one of its base.
   [[nodiscard]] Path ofBase(Path path) const;
-  [[nodiscard]] static std::string withNumber(const char* format, double value);
 
   // --- What it was made of.
   const MissionParams params;

@@ -1,7 +1,13 @@
+#include <cmath>
+
 #include "mission_impl.h"
+#include "spelunk/common/message_text.h"
 #include "spelunk/common/stopwatch.h"
 
 namespace spelunk::mission {
+
+using spelunk::toText;  // of numbers; this namespace has its own of states
+
 void Mission::Impl::takeOdometry(const RobotState& base) {
   if (const auto fault = watch.takeOdometry(base, now))
     return say(LogLevel::kWarn, "odometry", *fault);
@@ -124,8 +130,13 @@ std::string Mission::Impl::goToProblem(const Eigen::Vector3d& target) {
   const Eigen::Vector3d home = way_home.isKnown() ? way_home.home().position : here;
   const double there_s = (target - here).norm() / robot.speed_max_mps;
   const double home_s = (target - home).norm() / robot.speed_max_mps;
-  if (endurance.guard().marginAfter(there_s, home_s) < 0.0)
-    return "the point is too far: not even the straight way there and home fits the endurance";
+  if (const double margin_s = endurance.guard().marginAfter(there_s, home_s); margin_s < 0.0)
+    return "the point is too far: the straight way there and home is " +
+           toText(std::round((target - here).norm() + (target - home).norm())) + " m, and " +
+           toText(std::ceil(-margin_s)) + " s of endurance are missing for it (" +
+           toText(std::round(endurance.guard().remaining())) +
+           " s are left, the reserve included): choose a nearer point, or raise the time limit "
+           "or robot.endurance_s if the battery allows it";
   return "";
 }
 

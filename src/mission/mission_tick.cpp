@@ -1,6 +1,7 @@
 #include <algorithm>
 
 #include "mission_impl.h"
+#include "spelunk/common/message_text.h"
 
 namespace spelunk::mission {
 namespace {

@@ -139,8 +139,7 @@ PointStep PointFlight::legOf(double from_m, double to_m, const WayHome& way_home
     for (const Eigen::Vector3d& point : navigation::straightened(ahead, kLineTolerance_m))
       whole.push_back({point, 0.0});
   }
-  for (const Pose& pose : part)
-    if (whole.empty() || distance(whole.back(), pose) > kEnd_m) whole.push_back(pose);
+  whole = joined(std::move(whole), part);
   if (way_home.affordableLength(whole, std::nullopt) < lengthOf(whole))
     return stepOf(Kind::kUnreachable,
                   "no way home from farther on the way to the point fits the endurance");

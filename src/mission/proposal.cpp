@@ -12,12 +12,9 @@ using planners::PlanStatus;
 constexpr double kShortestCut_m = 2.0;  // less is not worth the way
 /// A robot at rest stands where its plan begins, but for the drift of its controller.
 constexpr double kStartGap_m = 0.5;
-constexpr double kInTime_s = 1e-6;
-
-bool isInTime(const RunningJob& job, double now_s) { return now_s <= job.takes_over_s + kInTime_s; }
 
 bool beginsWhereTheRobotIs(const RunningJob& job, const Basis& basis, double now_s) {
-  if (basis.flight.active()) return isInTime(job, now_s);
+  if (basis.flight.active()) return job.isInTime(now_s);
   return distance(basis.watch.pose(), job.pose) < kStartGap_m;
 }
 
@@ -55,7 +52,7 @@ std::optional<Path> findAffordable(const RunningJob& job, const PlanOutcome& out
                                    const Basis& basis, double now_s) {
   const bool is_usable = outcome.plan.status == PlanStatus::kOk &&
                          outcome.home.status == PlanStatus::kOk && basis.flight.active() &&
-                         isInTime(job, now_s);
+                         job.isInTime(now_s);
   if (!is_usable || !basis.space.isWalkable(outcome.plan.path) ||
       !basis.space.checkProposal(outcome.plan.path).isFree() ||
       !basis.space.isClear(outcome.home.path, basis.robot.box_m))

@@ -2,7 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
+
+#include "spelunk/common/message_text.h"
 
 namespace spelunk::mission {
 namespace {
@@ -18,12 +19,6 @@ constexpr double kScanLateMax_s = 2.0;
 constexpr double kScanFuture_s = 1.0;
 constexpr double kFallenTilt_deg = 50.0;  // no slope that a robot walks on tilts it so far
 constexpr double kFallenTime_s = 0.3;     // a stumble is shorter
-
-std::string withNumber(const char* format, double value) {
-  char text[160];
-  std::snprintf(text, sizeof text, format, value);
-  return text;
-}
 
 /// Between two scans of the fastest sensor, seconds; 0 where none is described.
 double scanPeriodOf(const RobotModel& robot) {

@@ -101,14 +101,16 @@ RunConfig loadRunConfig(const RunChoice& choice) {
   const std::string dir = choice.share_dir + "/config";
   const std::string robot_file = robotFile(choice);
   const PlannerChoice planner = plannerChoice(choice);
-  config.tree.addYamlFile(robot_file);
-  const bool is_legged = config.tree.textOf("robot.kind", "aerial") == "legged";
+  ParamTree own;
+  own.addYamlFile(robot_file);
+  const bool is_legged = own.textOf("robot.kind", "aerial") == "legged";
   for (const std::string& name :
        {std::string("map"), std::string("mission"), std::string("navigation"), std::string("sim"),
         std::string("terrain"), "planners/" + planner.name}) {
     addIfPresent(config.tree, dir + "/" + name + ".yaml");
     if (is_legged) addIfPresent(config.tree, dir + "/" + name + "_legged.yaml");
   }
+  config.tree.addYamlFile(robot_file);  // its own sections win over those that all robots share
   if (!planner.file.empty()) config.tree.addYamlFile(planner.file);
   for (const std::string& assignment : choice.assignments)
     config.tree.setAssignment(assignment, choice.assignments_origin);

@@ -3,6 +3,17 @@
 #include <algorithm>
 
 namespace spelunk::mission {
+namespace {
+
+/// All values of an enumeration up to its last one.
+template <class Enum>
+std::vector<Enum> upTo(Enum last) {
+  std::vector<Enum> values;
+  for (int k = 0; k <= static_cast<int>(last); ++k) values.push_back(static_cast<Enum>(k));
+  return values;
+}
+
+}  // namespace
 
 const std::vector<Rule>& rules() {
   using T = Task;
@@ -70,9 +81,8 @@ const std::vector<Rule>& rules() {
       {T::kPoint, E::kPointReached, T::kPaused, A::kHold},
       {T::kPoint, E::kPointUnreachable, T::kPaused, A::kHold},
 
-      // On the way home nothing but home matters; what came into reach may be explored again, and
-      // so
-      // may all when what the robot turned round for is gone.
+      // On the way home nothing but home matters. What came into reach may be explored again; all
+      // may be when the reason for which the robot turned round is gone.
       {T::kHome, E::kStartAsked, T::kExplore, A::kExplore},
       {T::kHome, E::kPauseAsked, T::kPaused, A::kHold},
       {T::kHome, E::kHomeAsked, T::kHome, A::kTurnHome},
@@ -125,23 +135,12 @@ Rule ruleFor(Task task, Event event) {
 }
 
 const std::vector<Task>& allTasks() {
-  static const std::vector<Task> kTasks{Task::kIdle,    Task::kTakeOff, Task::kLand,
-                                        Task::kExplore, Task::kPoint,   Task::kHome,
-                                        Task::kPaused,  Task::kDone,    Task::kStopped};
+  static const std::vector<Task> kTasks = upTo(Task::kStopped);
   return kTasks;
 }
 
 const std::vector<Event>& allEvents() {
-  static const std::vector<Event> kEvents{
-      Event::kStartAsked,      Event::kPauseAsked,  Event::kHomeAsked,
-      Event::kPointAsked,      Event::kStopAsked,   Event::kFell,
-      Event::kInputsFailed,    Event::kLeftPath,    Event::kObstacleAhead,
-      Event::kGroundUnseen,    Event::kGroundBad,   Event::kEnduranceLow,
-      Event::kAffordableAgain, Event::kWayHomeLost, Event::kWayHomeBlocked,
-      Event::kAtHome,          Event::kOnGround,    Event::kUp,
-      Event::kOverStand,       Event::kDown,        Event::kNoPlan,
-      Event::kNoPlanForLong,   Event::kNothingLeft, Event::kPointReached,
-      Event::kPointUnreachable};
+  static const std::vector<Event> kEvents = upTo(Event::kPointUnreachable);
   return kEvents;
 }
 

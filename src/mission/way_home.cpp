@@ -15,15 +15,8 @@ constexpr double kStampedSpacing_m = 1.0;
 constexpr double kWorthMerging = 0.8;
 constexpr double kMergeFrom_s = 20.0;
 constexpr double kMergePeriod_s = 10.0;
-/// A way that begins farther off does not begin where the robot is.
-constexpr double kRouteGap_m = 1.0;
 /// Steps in which a path is shortened until it can be afforded.
 constexpr double kCutStep_m = 1.0;
-
-void append(Path& path, const Path& more) {
-  for (const Pose& pose : more)
-    if (path.empty() || distance(path.back(), pose) > 1e-6) path.push_back(pose);
-}
 
 }  // namespace
 
@@ -64,8 +57,7 @@ void WayHome::noteOccupied(const std::vector<map::VoxelIndex>& voxels, double no
 void WayHome::noteRoute(const Path& rest, const planners::PlanResult& home) {
   route_.reset();
   if (home.status != planners::PlanStatus::kOk) return;
-  Path path = rest;
-  append(path, home.path);
+  Path path = joined(rest, home.path);
   if (!basis_.space.isClear(path, basis_.robot.box_m)) return;
   const double travel_s = travelTime(path);
   navigation::PathMonitor monitor(path, basis_.robot.box_m, basis_.space.resolution());
@@ -95,11 +87,11 @@ std::optional<KnownWay> WayHome::wayByRoute(double now_s) const {
     path = basis_.flight.rest(now_s);
   } else {
     const Pose& here = basis_.watch.pose();
-    if (distance(here, route_->path.front()) > kRouteGap_m) return std::nullopt;
+    if (distance(here, route_->path.front()) > kBeginsHere_m) return std::nullopt;
     path.push_back(here);
   }
-  append(path, route_->path);
-  return KnownWay{std::move(path), basis_.flight.restTime(now_s) + route_->travel_s, true};
+  return KnownWay{joined(std::move(path), route_->path),
+                  basis_.flight.restTime(now_s) + route_->travel_s, true};
 }
 
 void WayHome::followActive(double now_s) {

@@ -1,6 +1,6 @@
 #include <cmath>
-#include <cstdio>
 
+#include "spelunk/common/message_text.h"
 #include "spelunk/mission/way_home.h"
 #include "spelunk/navigation/path_shortening.h"
 #include "spelunk/navigation/swept_path_check.h"
@@ -24,24 +24,12 @@ constexpr std::size_t kPlacesOnTrail = 3;  // that home is still reachable from
 /// So far within the home radius a place counts as home, or the robot would end beside it.
 constexpr double kAtHomeSlack_m = 0.2;
 
-void append(Path& path, const Path& more) {
-  for (const Pose& pose : more)
-    if (path.empty() || distance(path.back(), pose) > 1e-6) path.push_back(pose);
-}
-
 std::string placeText(const char* what, const Eigen::Vector3d& place, double metres_away) {
-  char distance[32];
-  std::snprintf(distance, sizeof distance, "%.1f m from here", metres_away);
-  return "the way home is " + std::string(what) + " at " + placeOf(place) + ", " + distance;
+  return "the way home is " + std::string(what) + " at " + placeOf(place) + ", " +
+         withNumber("%.1f m from here", metres_away);
 }
 
 }  // namespace
-
-std::string placeOf(const Eigen::Vector3d& point) {
-  char text[64];
-  std::snprintf(text, sizeof text, "(%.1f, %.1f, %.1f)", point.x(), point.y(), point.z());
-  return text;
-}
 
 /// A way along the trail begins behind the robot: it brakes first, and comes back.
 Path WayHome::fromMotion(const KnownWay& way, double now_s) const {
@@ -50,11 +38,8 @@ Path WayHome::fromMotion(const KnownWay& way, double now_s) const {
   const double arc = active->arcAt(now_s);
   const double speed = active->reference(now_s).velocity.norm();
   const double braking = 0.5 * speed * speed / basis_.robot.acceleration_max_mps2 + kStopSlack_m;
-  Path path = active->line(arc, arc + (speed > kTurnsAtOnce_mps ? braking : 0.0));
-  const Path back = reversed(path);
-  append(path, back);
-  append(path, way.path);
-  return path;
+  const Path ahead = active->line(arc, arc + (speed > kTurnsAtOnce_mps ? braking : 0.0));
+  return joined(joined(ahead, reversed(ahead)), way.path);
 }
 
 std::optional<Leg> WayHome::findLeg(double now_s) {

@@ -1,16 +1,13 @@
 #include "spelunk/mission/way_home_search.h"
 
-#include <cstdio>
+#include "spelunk/common/message_text.h"
 
 namespace spelunk::mission {
 namespace {
 
 std::string refusal(const navigation::NavigationQuery& query, const std::string& why) {
-  char text[240];
-  const Eigen::Vector3d& goal = query.goal.position;
-  std::snprintf(text, sizeof text, "to (%.1f, %.1f, %.1f) with a box of %.2f m: %s", goal.x(),
-                goal.y(), goal.z(), query.box.x(), why.c_str());
-  return text;
+  return "to " + placeOf(query.goal.position) +
+         withNumber(" with a box of %.2f m: ", query.box.x()) + why;
 }
 
 }  // namespace

@@ -1,16 +1,30 @@
 #include "spelunk/mission/zones.h"
 
+#include <cmath>
 #include <string>
 #include <utility>
 
+#include "spelunk/common/params.h"
+
 namespace spelunk::mission {
+namespace {
+
+/// "(1.5, -2, 0.8)", metres.
+std::string textOf(const Eigen::Vector3d& point) {
+  const auto rounded = [](double value) { return toText(std::round(100.0 * value) / 100.0); };
+  return "(" + rounded(point.x()) + ", " + rounded(point.y()) + ", " + rounded(point.z()) + ")";
+}
+
+}  // namespace
 
 Answer Zones::setBounds(const AxisAlignedBox& bounds,
                         const std::optional<Eigen::Vector3d>& robot_at) {
   if (bounds.isEmpty() || bounds.min.hasNaN() || bounds.max.hasNaN())
     return {false, "the bounds are empty: min must lie below max on each axis"};
   if (robot_at && !bounds.contains(*robot_at))
-    return {false, "the bounds exclude the robot: choose them around it"};
+    return {false, "the bounds exclude the robot: it is at " + textOf(*robot_at) +
+                       ", they reach from " + textOf(bounds.min) + " to " + textOf(bounds.max) +
+                       "; choose them around it"};
   bounds_ = bounds;
   return {true, "bounds set"};
 }

@@ -72,11 +72,13 @@ std::vector<std::string> plannerNames() {
 
 std::vector<ParamDescription> describePlanner(const std::string& name, ParamTree& tree,
                                               const RobotModel& robot) {
-  if (name == "gbplanner") return describe(name, paramsOf<gbplanner::GbPlannerParams>(name, tree));
+  if (name == "gbplanner")
+    return describe(name, paramsOf<gbplanner::GbPlannerParams>(name, tree).resolvedFor(robot));
   if (name == "informed")
     return describe(name, paramsOf<informed::InformedParams>(name, tree).resolvedFor(robot));
   if (name == kOracle) return describe(name, paramsOf<baselines::OracleParams>(name, tree));
-  if (name == "nbvp") return describe(name, paramsOf<baselines::NbvpParams>(name, tree));
+  if (name == "nbvp")
+    return describe(name, paramsOf<baselines::NbvpParams>(name, tree).resolvedFor(robot));
   if (preferenceOf(name))
     return describe(name, paramsOf(name, tree, frontierDefaults(name)).resolvedFor(robot));
   refuseUnknown(name);
@@ -87,7 +89,8 @@ std::unique_ptr<ExplorationPlanner> makePlanner(const std::string& name, ParamTr
   const Task task{robot, resolution_m};
   if (name == "gbplanner")
     return std::make_unique<gbplanner::GbPlanner>(
-        checkedParamsOf<gbplanner::GbPlannerParams>(name, tree, task), robot, resolution_m);
+        checkedParamsOf<gbplanner::GbPlannerParams>(name, tree, task).resolvedFor(robot), robot,
+        resolution_m);
   if (name == "informed") {
     requireFlying(name, robot);
     return std::make_unique<informed::InformedPlanner>(
@@ -95,7 +98,8 @@ std::unique_ptr<ExplorationPlanner> makePlanner(const std::string& name, ParamTr
   }
   if (name == "nbvp")
     return std::make_unique<baselines::NbvpPlanner>(
-        checkedParamsOf<baselines::NbvpParams>(name, tree, task), robot, resolution_m);
+        checkedParamsOf<baselines::NbvpParams>(name, tree, task).resolvedFor(robot), robot,
+        resolution_m);
   if (name == kOracle) {
     const auto params = paramsOf<baselines::OracleParams>(name, tree);
     return std::make_unique<baselines::OraclePlanner>(params, baselines::readTour(params.tour),

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <utility>
 
+#include "spelunk/common/message_text.h"
 #include "spelunk/ros/frame_names.h"
 
 namespace spelunk::bridge {
@@ -14,18 +14,14 @@ constexpr double kMotionVoxels = 2.0;  // less than that, a ray from the wrong p
 constexpr double kSlack_m = 1.0;       // between odometry and tf: corrections of an estimator
 
 /// No sensor of this robot is farther from its base.
-double reachOf(const RobotModel& robot) {
+double mountingReach(const RobotModel& robot) {
   double mount_m = 0.0;
   for (const SensorModel& sensor : robot.sensor_models)
     mount_m = std::max(mount_m, T_base_sensor(sensor).translation().norm());
   return robot.box_m.norm() + std::abs(robot.box_lift_m) + mount_m;
 }
 
-std::string metres(double value) {
-  char text[32];
-  std::snprintf(text, sizeof(text), "%.1f m", value);
-  return text;
-}
+std::string metres(double value) { return withNumber("%.1f m", value); }
 
 std::string namesOf(const RobotModel& robot) {
   std::string names;
@@ -42,7 +38,7 @@ CloudPlaces::CloudPlaces(const RobotModel& robot, const std::string& world_frame
     : robot_(robot),
       registered_sensor_(registered_sensor),
       frame_prefix_(frame_prefix),
-      reach_m_(reachOf(robot)),
+      reach_m_(mountingReach(robot)),
       tree_(std::move(tree)),
       bonds_(world_frame, reach_m_, kMotionVoxels * resolution_m, tree_.parent) {}
 

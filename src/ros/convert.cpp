@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "spelunk/ros/frame_name.h"
+#include "spelunk/ros/frame_names.h"
 
 namespace spelunk::bridge {
 namespace {

@@ -2,6 +2,11 @@
 
 namespace spelunk::bridge {
 
+std::string frameName(const std::string& given) {
+  const std::size_t first = given.find_first_not_of('/');
+  return first == std::string::npos ? "" : given.substr(first);
+}
+
 std::string prefixed(const std::string& prefix, const std::string& frame) {
   const std::size_t first = prefix.find_first_not_of('/');
   if (first == std::string::npos) return frame;

@@ -1,15 +1,11 @@
 #include "spelunk/ros/input_watch.h"
 
-#include <cstdio>
+#include "spelunk/common/message_text.h"
 
 namespace spelunk::bridge {
 namespace {
 
-std::string seconds(double value) {
-  char text[32];
-  std::snprintf(text, sizeof(text), "%.0f s", value);
-  return text;
-}
+std::string seconds(double value) { return withNumber("%.0f s", value); }
 
 }  // namespace
 
@@ -52,7 +48,8 @@ void InputWatch::checkSilence(double now_s) {
       report("publishers " + input.topic,
              std::to_string(publishers) + " publishers of " + input.what + " on '" + input.topic +
                  "', wanted is " + std::to_string(input.publishers_max) +
-                 ": stop the others (`rostopic info " + input.topic + "` names them), or remap '" +
+                 ": stop the others (`rostopic info " + input.topic +
+                 "` names them), put each robot into a namespace of its own, or remap '" +
                  input.remapped + "' in the launch file",
              now_s);
   }

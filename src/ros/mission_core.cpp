@@ -9,13 +9,6 @@
 namespace spelunk::bridge {
 namespace {
 
-bool isFlying(mission::MissionState state) {
-  using mission::MissionState;
-  return state == MissionState::kTakeOff || state == MissionState::kExplore ||
-         state == MissionState::kReposition || state == MissionState::kHome ||
-         state == MissionState::kLand;
-}
-
 void place(MissionCore& core, const LocalFrame& frame) {
   core.is_placed = true;
   core.frame = frame;
@@ -41,7 +34,7 @@ mission::Answer load(MissionCore& core, const std::string& folder, planners::Pla
     return {false, error.what()};
   }
   if (core.is_placed && saved == core.frame) return core.mission.load(folder, &graph);
-  if (isFlying(core.mission.status().state)) return {false, "load: pause the mission first"};
+  if (core.mission.isRunning()) return {false, "load: pause the mission first"};
   mission::Mission fresh = core.make_mission();
   const mission::Answer answer = fresh.load(folder, &graph);
   if (!answer.accepted) return answer;

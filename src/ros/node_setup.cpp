@@ -11,7 +11,7 @@
 #include "spelunk/common/log.h"
 #include "spelunk/mission/run_config.h"
 #include "spelunk/planners/factory.h"
-#include "spelunk/ros/frame_name.h"
+#include "spelunk/ros/frame_names.h"
 #include "spelunk/ros/params.h"
 #include "spelunk/sim/start_proposal.h"
 
@@ -71,13 +71,6 @@ std::optional<Pose> startIn(const SimNodeParams& params) {
   return Pose{{numbers[0], numbers[1], numbers[2]}, numbers[3]};
 }
 
-Pose startOf(const SimNodeParams& params, const sim::WorldMesh& world,
-             const Eigen::Vector3d& robot_m) {
-  if (const auto told = startIn(params)) return world.frame.written(*told);
-  if (world.start) return *world.start;
-  throw OutsideError(sim::missingStartText(world, robot_m, "start:="));
-}
-
 }  // namespace
 
 PlannerSetup loadPlannerSetup(const ::ros::NodeHandle& private_node) {
@@ -132,7 +125,7 @@ SimWorld openWorld(const SimSetup& setup) {
       name, params.worlds_dir, params.cache_dir,
       sim::meshFrameOf(params.world_scale, params.world_up, {"world_scale:=", "world_up:="}),
       setup.around);
-  world.start = startOf(params, world.mesh, setup.robot.box_m);
+  world.start = sim::chooseStart(world.mesh, startIn(params), setup.robot.box_m, "start:=");
   if (world.mesh.exploration_bounds)
     log(LogLevel::kInfo,
         "the bounds beside the mesh limit exploration where planner_node is told "

@@ -1,18 +1,13 @@
 #include "spelunk/ros/pending_clouds.h"
 
-#include <cstdio>
-
-#include "spelunk/ros/frame_name.h"
+#include "spelunk/common/message_text.h"
+#include "spelunk/ros/frame_names.h"
 #include "spelunk/ros/stamp_check.h"
 
 namespace spelunk::bridge {
 namespace {
 
-std::string seconds(double value) {
-  char text[32];
-  std::snprintf(text, sizeof(text), "%.2f s", value);
-  return text;
-}
+std::string seconds(double value) { return withNumber("%.2f s", value); }
 
 }  // namespace
 

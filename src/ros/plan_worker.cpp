@@ -22,6 +22,15 @@ mission::PlanOutcome failed(const mission::PlanJob& job, const std::string& text
 
 }  // namespace
 
+mission::PlanOutcome runJob(const mission::PlanJob& job, GuardedPlanner& planner) {
+  try {
+    return planner.with([&](auto& inside) { return mission::run(job, *inside); });
+  } catch (const std::exception& error) {
+    log(LogLevel::kError, std::string("the planner failed: ") + error.what());
+    return failed(job, error.what());
+  }
+}
+
 PlanWorker::PlanWorker(GuardedPlanner& planner, Finished finished)
     : planner_(planner), finished_(std::move(finished)), thread_([this] { work(); }) {}
 
@@ -53,13 +62,7 @@ std::optional<mission::PlanJob> PlanWorker::waitForJob() {
 
 void PlanWorker::work() {
   while (const auto job = waitForJob()) {
-    mission::PlanOutcome outcome;
-    try {
-      outcome = planner_.with([&](auto& planner) { return mission::run(*job, *planner); });
-    } catch (const std::exception& error) {
-      log(LogLevel::kError, std::string("the planner failed: ") + error.what());
-      outcome = failed(*job, error.what());
-    }
+    const mission::PlanOutcome outcome = runJob(*job, planner_);
     try {
       finished_(outcome);
     } catch (const std::exception& error) {

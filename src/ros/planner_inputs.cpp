@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "spelunk/ros/convert.h"
-#include "spelunk/ros/frame_name.h"
 #include "spelunk/ros/frame_names.h"
 #include "spelunk/ros/stamp_check.h"
 
@@ -157,7 +156,6 @@ void PlannerInputs::onTimer() {
     forgetAfterClockJump();
     enterReadyClouds(::ros::Time::now());
     sayWhichSensorsAreMissing();
-    sayIfOdometryComesFromTwo();
   });
 }
 
@@ -166,15 +164,6 @@ void PlannerInputs::reportSenders(TfInput::SentByTwo what, const std::string& te
     if (what == TfInput::SentByTwo::kClock) c.has_two_clocks = true;
     c.watch.report(text, text, missionTime(c, ::ros::Time::now()));
   });
-}
-
-void PlannerInputs::sayIfOdometryComesFromTwo() {
-  if (two_odometries_said_ || odometry_subscriber_.getNumPublishers() < 2) return;
-  two_odometries_said_ = true;
-  const std::string topic = node_.resolveName("odometry");
-  report("odometry senders", "several nodes publish '" + topic +
-                                 "': the robot seems to jump to and fro; put each robot into a "
-                                 "namespace of its own, or remap 'odometry' in the launch file");
 }
 
 void PlannerInputs::sayWhichSensorsAreMissing() {

@@ -158,7 +158,7 @@ bool PlannerServices::goTo(GoTo::Request& request, GoTo::Response& response) {
       return given.accepted ? core.mission.takeJob() : std::nullopt;
     });
     if (!job) return;
-    const auto outcome = planner_.with([&](auto& planner) { return mission::run(*job, *planner); });
+    const mission::PlanOutcome outcome = runJob(*job, planner_);
     core_.with([&](MissionCore& core) {
       core.mission.take(outcome, missionTime(core, ::ros::Time::now()));
       const mission::GoToStatus status = core.frame.toCaller(core.mission.status().go_to);

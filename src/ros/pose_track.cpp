@@ -33,8 +33,4 @@ std::optional<Eigen::Isometry3d> PoseTrack::nearest(double stamp_s) const {
   return at(std::clamp(stamp_s, poses_.front().stamp_s, poses_.back().stamp_s));
 }
 
-std::optional<double> PoseTrack::newest() const {
-  return poses_.empty() ? std::nullopt : std::optional<double>(poses_.back().stamp_s);
-}
-
 }  // namespace spelunk::bridge

@@ -1,7 +1,8 @@
 #include "spelunk/ros/stamp_check.h"
 
 #include <cmath>
-#include <cstdio>
+
+#include "spelunk/common/message_text.h"
 
 namespace spelunk::bridge {
 namespace {
@@ -12,11 +13,7 @@ constexpr double kGpsAheadOfUtc_s = 18.0;
 constexpr double kTaiAheadOfUtc_s = 37.0;
 constexpr double kNear_s = 0.9;
 
-std::string seconds(double value) {
-  char text[40];
-  std::snprintf(text, sizeof(text), "%.2f s", value);
-  return text;
-}
+std::string seconds(double value) { return withNumber("%.2f s", value); }
 
 std::string ofThePast(double stamp_s, double age_s, double age_max_s) {
   if (age_s > kOtherClock_s)

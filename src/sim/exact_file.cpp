@@ -47,7 +47,7 @@ std::optional<std::size_t> sizeOf(const std::string& type) {
   return std::nullopt;
 }
 
-/// The bytes of a double, or its value from them, the other way round.
+/// The bytes of a double in the other order: what is big-endian becomes little-endian.
 std::array<char, 8> reversed(std::array<char, 8> bytes) {
   std::reverse(bytes.begin(), bytes.end());
   return bytes;

@@ -1,5 +1,6 @@
 #include "sidecar.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <fstream>
@@ -25,6 +26,17 @@ constexpr const char* kBounds =
 
 [[noreturn]] void refuse(const std::filesystem::path& path, const std::string& reason) {
   throw OutsideError(path.string() + ": " + reason);
+}
+
+/// The whole file; a fault is named with its line, its column and what stands there.
+Json parsed(std::istream& stream, const std::filesystem::path& path) {
+  try {
+    return Json::parse(stream);
+  } catch (const Json::parse_error& error) {
+    const std::string text = error.what();  // "[json.exception.parse_error.101] parse error at ..."
+    refuse(path, "is not valid JSON: " + text.substr(std::min(text.size(), text.find("] ") + 2)) +
+                     "; correct it there (a comma too many or missing, a quote left out)");
+  }
 }
 
 /// Finite numbers; none if there are more, fewer or anything else.
@@ -79,9 +91,8 @@ Sidecar readSidecar(const std::filesystem::path& mesh_path) {
   Sidecar sidecar;
   std::ifstream stream(path);
   if (!stream) return sidecar;
-  const Json json = Json::parse(stream, nullptr, false);
-  if (json.is_discarded() || !json.is_object())
-    refuse(path, std::string(kStart) + " (it is not a JSON object)");
+  const Json json = parsed(stream, path);
+  if (!json.is_object()) refuse(path, std::string(kStart) + " (it is not a JSON object)");
   for (const auto& [key, value] : json.items()) {
     if (key == "start")
       sidecar.start = startOf(value, path);

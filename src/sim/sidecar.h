@@ -16,9 +16,9 @@ struct Sidecar {
   std::optional<AxisAlignedBox> bounds;  ///< "bounds": [[x, y, z], [x, y, z]], of exploration
 };
 
-/// Reads the file beside a mesh; nothing is said if there is none. "artifacts" is for others.
-/// Throws OutsideError with path, key and remedy if it is no JSON object, holds an unknown key or
-/// a value of another kind.
+/// Reads the file beside a mesh; nothing is said if there is none. "artifacts" is for others; keys
+/// that are not known are named in a warning and not used. Throws OutsideError with path, key and
+/// remedy if the file is no JSON object or a value is of another kind.
 [[nodiscard]] Sidecar readSidecar(const std::filesystem::path& mesh_path);
 
 }  // namespace spelunk::sim

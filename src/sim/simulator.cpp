@@ -102,7 +102,9 @@ std::vector<std::string> SimParams::problemsFor(const RobotModel& robot) const {
   if ((body.array() > robot.box_m.array()).any())
     found.push_back(std::string(is_legged ? "walker.trunk_m" : "sim.body_m") + " = " +
                     toText(body) + " does not fit into robot.box_m = " + toText(robot.box_m) +
-                    ", which keeps the robot clear of obstacles: enlarge the box");
+                    ", which keeps the robot clear of obstacles: enlarge the box, or make the body "
+                    "smaller" +
+                    (is_legged ? "" : " (left out, it follows from the box)"));
   if (is_legged && std::fabs(walker.stand_height_m - robot.ride_height_m) > kSameHeight_m)
     found.push_back("walker.stand_height_m = " + toText(walker.stand_height_m) +
                     " and robot.ride_height_m = " + toText(robot.ride_height_m) +
@@ -110,8 +112,14 @@ std::vector<std::string> SimParams::problemsFor(const RobotModel& robot) const {
   return found;
 }
 
-SimParams readSimParams(ParamTree& tree) {
-  SimParams params;
+Eigen::Vector3d bodyWithin(const Eigen::Vector3d& box_m) {
+  const Eigen::Array3d shares{7.0 / 11.0, 7.0 / 11.0, 3.0 / 4.0};  // 0.7 of 1.1 m, 0.3 of 0.4 m
+  return (1000.0 * shares * box_m.array()).round() / 1000.0;
+}
+
+namespace {
+
+SimParams readSimParams(ParamTree& tree, SimParams params) {
   tree.read("sim", params);
   tree.read("walker", params.walker);
   for (const std::string& problem : params.problems()) tree.addProblem(problem);
@@ -119,8 +127,14 @@ SimParams readSimParams(ParamTree& tree) {
   return params;
 }
 
+}  // namespace
+
+SimParams readSimParams(ParamTree& tree) { return readSimParams(tree, SimParams{}); }
+
 SimParams readSimParams(ParamTree& tree, const RobotModel& robot) {
-  const SimParams params = readSimParams(tree);
+  SimParams defaults;
+  defaults.body_m = bodyWithin(robot.box_m);
+  const SimParams params = readSimParams(tree, defaults);
   for (const std::string& problem : params.problemsFor(robot)) tree.addProblem(problem);
   return params;
 }

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <sstream>
 
+#include "spelunk/common/contract.h"
 #include "spelunk/sim/mesh_scene.h"
 #include "spelunk/sim/mesh_size.h"
 #include "spelunk/sim/start_check.h"
@@ -86,11 +87,19 @@ std::string missingStartText(const WorldMesh& mesh, const Eigen::Vector3d& size_
                            sizeAdvice(mesh.bounds());
   const auto free = proposeStart(mesh, size_m);
   if (!free)
-    return head + "; no place with room for the robot was found. Give " + option +
+    return head + "; no place with room for the robot, " + toText(size_m) +
+           " m, was found: is robot.box_m right, and the unit of the mesh? Or give " + option +
            "x,y,z,yaw or \"start\": [x, y, z, yaw] in <name>.json beside the mesh";
   const std::string start = typedText(mesh.frame.toCaller(*free));
   return head + "; as it is, a free place is " + option + start + " (or \"start\": [" + start +
          "] in <name>.json beside the mesh)";
+}
+
+Pose chooseStart(const WorldMesh& mesh, const std::optional<Pose>& told,
+                 const Eigen::Vector3d& size_m, const std::string& option) {
+  if (told) return mesh.frame.written(*told);
+  if (mesh.start) return *mesh.start;
+  throw OutsideError(missingStartText(mesh, size_m, option));
 }
 
 }  // namespace spelunk::sim

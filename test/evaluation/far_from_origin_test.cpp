@@ -177,5 +177,26 @@ TEST(FarFromOrigin, StartInTheWallIsNamedInTheCallersFrame) {
   }
 }
 
+TEST(FarFromOrigin, RefusalToStartIsSaidInTheCallersFrame) {
+  setLogSink([](LogLevel, const std::string&) {});
+  const TemporaryFolder folder;
+  const sim::WorldMesh mesh = sim::loadWorldMesh(writeRoom(folder, kUtm));
+  RunSetup setup = setupFor(mesh);
+  setup.sim.body_m = Eigen::Vector3d::Constant(0.1);  // no collision yet, but none of the margin
+  setup.start.position.y() = 3.85;                    // 0.3 m from the wall
+  ParamTree tree;
+  const auto planner =
+      planners::makePlanner("gbplanner", tree, setup.robot, setup.map.resolution_m);
+  MissionRun run(setup, mesh, *planner);
+  try {
+    (void)run.fly();
+    FAIL();
+  } catch (const OutsideError& error) {
+    EXPECT_NE(std::string(error.what()).find("around (466992.7, 5420003.9, 301.7)"),
+              std::string::npos)
+        << error.what();
+  }
+}
+
 }  // namespace
 }  // namespace spelunk::evaluation

@@ -216,6 +216,13 @@ TEST_F(Portal, IsForgottenWithTheMap) {
   EXPECT_EQ(silentThere(), 0U);
 }
 
+TEST_F(Portal, IsLookedIntoAnewFromWhereTheLastLookAtAForgottenMapWas) {
+  for (const double x : {3.0, 4.5, 6.0, 7.5}) lookFrom(x);
+  map_.clear();
+  for (const double x : {7.5, 6.0, 4.5}) lookFrom(x);
+  EXPECT_GT(silentThere(), 0U);
+}
+
 TEST_F(Portal, IsSilentInAMapThatWasSavedAndLoaded) {
   const test::TemporaryFolder folder;
   for (const double x : {3.0, 4.5, 6.0, 7.5}) lookFrom(x);

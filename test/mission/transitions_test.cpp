@@ -15,6 +15,15 @@ TEST(Transitions, EveryPairHasAtMostOneRule) {
         << static_cast<int>(rule.from) << ", " << static_cast<int>(rule.event);
 }
 
+TEST(Transitions, ListsOfTasksAndEventsHoldAllThatRulesName) {
+  const std::set<Task> tasks(allTasks().begin(), allTasks().end());
+  const std::set<Event> events(allEvents().begin(), allEvents().end());
+  for (const Rule& rule : rules()) {
+    EXPECT_EQ(tasks.count(rule.from) + tasks.count(rule.next), 2U);
+    EXPECT_EQ(events.count(rule.event), 1U) << static_cast<int>(rule.event);
+  }
+}
+
 TEST(Transitions, WhatIsIgnoredLeavesTheTaskAsItIs) {
   for (const Task task : allTasks())
     for (const Event event : allEvents()) {

@@ -1,10 +1,13 @@
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <limits>
 
+#include "spelunk/mission/mission_store.h"
 #include "spelunk/ros/frame_names.h"
 #include "spelunk/ros/mission_core.h"
 #include "spelunk/ros/sender_watch.h"
+#include "support/temporary_folder.h"
 
 namespace spelunk::bridge {
 namespace {
@@ -73,6 +76,52 @@ TEST(MissionCore, FrameStaysWhereTheFirstPosePutIt) {
   MissionCore core = coreOfAerial();
   EXPECT_TRUE(frameAt(core, {10.0, 20.0, 1.0}).isCallers());
   EXPECT_TRUE(frameAt(core, kUtm).isCallers());
+}
+
+/// A robot that stands in the middle of what it sees, has been told to explore, and holds because
+/// its planner found nothing the first time.
+void holdWhileExploring(mission::Mission& mission) {
+  constexpr double kRadius_m = 5.0;
+  constexpr int kRays = 720;
+  double now_s = 0.0;
+  for (int k = 1; k <= 5; ++k) {
+    now_s = 0.1 * k;
+    RobotState state;
+    state.stamp_s = now_s;
+    Scan scan;
+    scan.stamp_s = now_s;
+    scan.sensor = "lidar";
+    for (int ray = 0; ray < kRays; ++ray) {
+      const double angle = 2.0 * M_PI * ray / kRays;
+      scan.points.emplace_back(kRadius_m * std::cos(angle), kRadius_m * std::sin(angle), 0.0);
+    }
+    mission.onOdometry(state);
+    (void)mission.onScan(scan);
+    (void)mission.tick(now_s);
+  }
+  ASSERT_TRUE(mission.start().accepted) << mission.status().reason;
+  (void)mission.tick(now_s);
+  const auto job = mission.takeJob();
+  ASSERT_TRUE(job);
+  mission::PlanOutcome nothing;
+  nothing.number = job->number;
+  mission.take(nothing, now_s);
+  ASSERT_EQ(mission.status().state, mission::MissionState::kHold);
+}
+
+TEST(MissionCore, AMissionThatHoldsToPlanAnewIsNotReplacedByASavedOne) {
+  const test::TemporaryFolder folder;
+  mission::MissionRecord record;
+  record.frame = LocalFrame(kUtm);
+  mission::writeRecord(folder.at("saved"), record);
+  MissionCore core = coreOfAerial();
+  (void)frameAt(core, Eigen::Vector3d::Zero());
+  holdWhileExploring(core.mission);
+  planners::PlannerGraph graph;
+  const mission::Answer answer = load(core, folder.at("saved"), graph);
+  EXPECT_FALSE(answer.accepted);
+  EXPECT_EQ(answer.reason, "load: pause the mission first");
+  EXPECT_TRUE(core.frame.isCallers());
 }
 
 }  // namespace

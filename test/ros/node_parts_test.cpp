@@ -208,7 +208,7 @@ TEST_F(WaitingTest, TwoPublishersOfOdometryAreSaidWithTheRemedy) {
   watch_.checkSilence(1.0);
   ASSERT_EQ(log.lines().size(), 1U);
   expectParts(log.lines()[0], {"2 publishers of odometry on '/odom', wanted is 1",
-                               "rostopic info /odom", "remap 'odometry'"});
+                               "rostopic info /odom", "namespace", "remap 'odometry'"});
 }
 
 TEST(ClockWatch, SaysThatASimulatedClockNeverCame) {
@@ -416,6 +416,18 @@ TEST(PlanWorker, APlannerThatThrowsBecomesNoPathWithTheReason) {
   EXPECT_EQ(outcome.number, 8U);
   EXPECT_EQ(outcome.plan.status, planners::PlanStatus::kNoPath);
   EXPECT_NE(outcome.plan.reason.find("out of luck"), std::string::npos);
+}
+
+TEST(PlanWorker, AJobThatCannotBeDoneIsAnsweredWithTheReason) {
+  const RecordedLog log;
+  GuardedPlanner planner(std::make_unique<FakePlanner>(false));
+  mission::PlanJob job;
+  job.number = 9;
+  job.work = mission::PointJob{};  // without a map
+  const mission::PlanOutcome outcome = runJob(job, planner);
+  EXPECT_EQ(outcome.number, 9U);
+  EXPECT_NE(outcome.go_to.status, navigation::NavigationStatus::kOk);
+  EXPECT_NE(outcome.go_to.reason.find("failed"), std::string::npos) << outcome.go_to.reason;
 }
 
 TEST(PlanWorker, StopsWithoutAJob) {

@@ -11,7 +11,7 @@ enum class LogLevel { kInfo, kWarn, kError };
 /// Where the lines go. One sink a process: ros/ installs ROS, mains the terminal, tests a recorder.
 using LogSink = std::function<void(LogLevel, const std::string&)>;
 
-/// Replaces the sink; an empty one discards. Call before threads start.
+/// Replaces the sink; an empty one discards. Thread-safe.
 void setLogSink(LogSink sink);
 
 /// Passes one line to the sink. Thread-safe.

@@ -25,6 +25,9 @@ Path resampled(const Path& path, double spacing_m);
 /// `path` from its end to its start, yaw unchanged.
 Path reversed(const Path& path);
 
+/// One path and then another one; waypoints where the line has just arrived are left out.
+[[nodiscard]] Path joined(Path path, const Path& more);
+
 /// Where `point` projects on the line.
 struct PathProjection {
   double arc_m = 0.0;       ///< Arc length of the nearest point of the line.

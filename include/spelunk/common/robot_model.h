@@ -77,6 +77,8 @@ struct RobotModel {
 [[nodiscard]] double denseRange(const RobotModel& robot);
 /// The longest range of the rays of gains of its sensors, metres; 0 without sensors.
 [[nodiscard]] double longestGainRange(const RobotModel& robot);
+/// What one look of the sensor that sees most shows, m3; 0 without sensors.
+[[nodiscard]] double lookVolume(const RobotModel& robot);
 /// Whether a sensor of it looks all round, so that its heading does not matter.
 [[nodiscard]] bool seesAllAround(const RobotModel& robot);
 /// How far from its start a robot gets that is home again after `time_limit_s` or at the end of its

@@ -9,16 +9,18 @@
 
 namespace spelunk {
 
-/// The boxes of RobotModel::self_filter_boxes_m in the base frame. Entries that cannot be read are
-/// added to `problems` (if given), one sentence each.
-[[nodiscard]] std::vector<AxisAlignedBox> selfFilterBoxes(const RobotModel& robot,
-                                                          std::vector<std::string>* problems);
+/// What RobotModel::self_filter_boxes_m says.
+struct SelfFilterBoxes {
+  std::vector<AxisAlignedBox> boxes;  ///< In the base frame; none if there is a problem.
+  std::string problem;                ///< Why it cannot be read, one sentence; empty if it can.
+};
+[[nodiscard]] SelfFilterBoxes selfFilterBoxes(const RobotModel& robot);
 
 /// Takes a robot's own parts (arms, legs, mast, cage) out of its scans.
 class SelfFilter {
  public:
   /// Precondition: the robot's description has no problems.
-  explicit SelfFilter(const RobotModel& robot) : boxes_(selfFilterBoxes(robot, nullptr)) {}
+  explicit SelfFilter(const RobotModel& robot) : boxes_(selfFilterBoxes(robot).boxes) {}
 
   /// `points` (sensor frame) but those in a box, in their order.
   [[nodiscard]] std::vector<Eigen::Vector3f> without(std::vector<Eigen::Vector3f> points,

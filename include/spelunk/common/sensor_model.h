@@ -96,6 +96,10 @@ struct VerticalField {
 /// the horizon.
 [[nodiscard]] bool seesAllAround(const SensorModel& sensor);
 
+/// Volume that one look into the open shows, m3: the field of view up to gainRange(). A field
+/// flatter than the rays of a gain are apart counts as high as these are.
+[[nodiscard]] double lookVolume(const SensorModel& sensor);
+
 /// The sensor with every value that follows from another one written out, for a map that takes
 /// returns up to `map_range_m`.
 [[nodiscard]] SensorModel resolved(SensorModel sensor, double map_range_m);

@@ -85,6 +85,8 @@ class Mission {
 
   // --- What there is to see.
   [[nodiscard]] MissionStatus status() const;
+  /// Whether the robot moves or will move by itself: also while it holds to plan anew.
+  [[nodiscard]] bool isRunning() const;
   // Paths are those of the robot's base.
   [[nodiscard]] Path activePath() const;
   /// The newest plan of a flight to a point, its trees included; none while there is no such

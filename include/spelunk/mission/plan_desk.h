@@ -29,6 +29,12 @@ struct RunningJob {
   double asked_s = 0.0;
   double takes_over_s = 0.0;  ///< When the robot is where the plan begins.
   Pose pose;                  ///< There.
+
+  /// Whether an answer of now comes before the robot is beyond where the plan begins.
+  [[nodiscard]] bool isInTime(double now_s) const {
+    constexpr double kRounding_s = 1e-6;
+    return now_s <= takes_over_s + kRounding_s;
+  }
 };
 
 /// What is asked of whom, and when: one plan at a time, begun so early that its answer comes before

@@ -29,6 +29,9 @@ struct KnownWay {
 /// Nothing may be asked but isKnown() before begin() or takeUp().
 class WayHome {
  public:
+  /// A way that begins farther off does not begin where the robot is.
+  static constexpr double kBeginsHere_m = 1.0;
+
   explicit WayHome(const Basis& basis) : basis_(basis) {}
 
   // --- Home and the trail.
@@ -76,8 +79,9 @@ class WayHome {
   [[nodiscard]] std::optional<Leg> legOfSeenWay(const Path& whole, double now_s);
 
   // --- Another way home when the trail is cut.
-  /// What navigation is to look for. Full box before the tight one that flown edges are allowed.
-  /// `stream`: name of the stream of `rng` that the queries draw from.
+  /// What navigation is to look for: ways with the full safety box first, then ways with the tight
+  /// box that is allowed where the robot has flown. `stream`: name of the stream of `rng` that the
+  /// queries draw from.
   [[nodiscard]] WayHomeSearch search(const Pose& from,
                                      const std::shared_ptr<const map::FrozenMap>& map,
                                      const Rng& rng, const std::string& stream);
@@ -116,8 +120,5 @@ class WayHome {
   double next_merge_s_ = 0.0;
   std::string obstacle_;
 };
-
-/// A place as messages name it, metres: "(1.0, 2.0, 3.0)".
-[[nodiscard]] std::string placeOf(const Eigen::Vector3d& point);
 
 }  // namespace spelunk::mission

@@ -45,11 +45,10 @@ struct CloudParams {
 };
 
 /// The points of a cloud, brought into the sensor's frame in double precision, those that are not
-/// finite left out. Fields x, y, z may
-/// be float32 or float64 at any offset, in either order of bytes. Steps that do not fit the data
-/// are taken from its size where that allows one answer only. Refused: missing fields, other
-/// types, a layout that does not fit the data, no points at all; `problem` continues "a cloud ..."
-/// and ends with the remedy.
+/// finite left out. Fields x, y, z may be float32 or float64 at any offset, in either order of
+/// bytes. Steps that do not fit the data are taken from its size where that allows one answer only.
+/// Refused: missing fields, other types, a layout that does not fit the data, no points at all;
+/// `problem` continues "a cloud ..." and ends with the remedy.
 [[nodiscard]] FromMsg<std::vector<Eigen::Vector3f>> pointsFromMsg(
     const sensor_msgs::PointCloud2& cloud,
     const Eigen::Isometry3d& T_sensor_cloud = Eigen::Isometry3d::Identity());

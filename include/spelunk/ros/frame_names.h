@@ -6,6 +6,9 @@
 
 namespace spelunk::bridge {
 
+/// A frame's name as tf2 knows it: without the slashes that tf1 put before it.
+[[nodiscard]] std::string frameName(const std::string& given);
+
 /// "robot_1" and "base_link" make "robot_1/base_link", as tf_prefix does; with or without slashes
 /// around the prefix. An empty prefix changes nothing.
 [[nodiscard]] std::string prefixed(const std::string& prefix, const std::string& frame);

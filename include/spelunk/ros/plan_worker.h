@@ -15,8 +15,11 @@ namespace spelunk::bridge {
 
 using GuardedPlanner = Guarded<std::unique_ptr<planners::ExplorationPlanner>>;
 
-/// The one thread that plans. A planner that throws does not end it: its outcome is then "no path"
-/// with the exception's text as the reason, so that the mission goes on.
+/// Does the work of a job. If that throws, the outcome is "no path" with the exception's text as
+/// the reason, so that the mission does not wait for an answer for good.
+[[nodiscard]] mission::PlanOutcome runJob(const mission::PlanJob& job, GuardedPlanner& planner);
+
+/// The one thread that plans; see runJob().
 class PlanWorker {
  public:
   /// Called in the worker's thread, the planner unlocked.

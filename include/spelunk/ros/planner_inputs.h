@@ -39,7 +39,6 @@ class PlannerInputs {
 
   void forgetAfterClockJump();
   void sayWhichSensorsAreMissing();
-  void sayIfOdometryComesFromTwo();
   void expectInputs();
   void enterReadyClouds(const ::ros::Time& now);
   void giveUp(const PendingClouds::Item& item, const ::ros::Time& now);
@@ -65,7 +64,6 @@ class PlannerInputs {
   PendingClouds pending_;
   SensorWatch sensors_;
   std::uint64_t jumps_seen_ = 0;
-  bool two_odometries_said_ = false;
   CloudPlaces places_;
   SelfReturns self_returns_;
   std::optional<::ros::Time> first_used_;  ///< Stamp of a cloud.

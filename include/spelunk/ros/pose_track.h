@@ -21,7 +21,6 @@ class PoseTrack {
   /// The pose known nearest in time; none if there is no pose at all.
   [[nodiscard]] std::optional<Eigen::Isometry3d> nearest(double stamp_s) const;
 
-  [[nodiscard]] std::optional<double> newest() const;
   void clear() { poses_.clear(); }
 
  private:

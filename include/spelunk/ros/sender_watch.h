@@ -8,7 +8,7 @@
 
 namespace spelunk::bridge {
 
-/// Notices that two nodes send what only one may send: a frame on /tf, /clock, a robot's odometry.
+/// Notices that two nodes send what only one may send: a frame on /tf, or /clock.
 /// They take turns then; a node that was restarted under another name does not. Not thread-safe.
 class SenderWatch {
  public:

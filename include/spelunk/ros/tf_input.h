@@ -17,7 +17,7 @@
 namespace spelunk::bridge {
 
 /// Fills a tf buffer from /tf and /tf_static, as tf2's own listener does, and knows who sent what:
-/// two nodes that send the same frame, or /clock, are told. Has its own queue and thread, so that
+/// it reports two nodes that send the same frame, or /clock. Has its own queue and thread, so that
 /// transforms come in while a cloud enters the map.
 class TfInput {
  public:

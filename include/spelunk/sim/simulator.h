@@ -47,7 +47,8 @@ struct SimParams {
     field("physics_rate_hz", physics_rate_hz, Bounds{100.0, 4000.0}, "fixed steps a second");
     field("mass_kg", mass_kg, Bounds{0.1, 200.0}, "mass of the robot");
     field("inertia_kgm2", inertia_kgm2, Bounds{1e-4, 100.0}, "principal moments of inertia");
-    field("body_m", body_m, Bounds{0.05, 10.0}, "box that collides with the mesh");
+    field("body_m", body_m, Bounds{0.05, 10.0},
+          "box that collides with the mesh; follows from robot.box_m where it is left out");
     field("rotors", rotors, Bounds{4, 6}, "4 or 6");
     field("rotor_arm_m", rotor_arm_m, Bounds{0.05, 3.0}, "rotor axis to centre");
     field("rotor_lag_s", rotor_lag_s, Bounds{0.0, 1.0}, "time constant of a rotor");
@@ -65,9 +66,14 @@ struct SimParams {
   }
 };
 
+/// The body that collides where nobody says another: the safety box less its margin, in the
+/// proportions of the shipped multirotor, to the millimetre.
+[[nodiscard]] Eigen::Vector3d bodyWithin(const Eigen::Vector3d& box_m);
+
 /// Reads the sections "sim" and "walker"; problems are added to the tree.
 [[nodiscard]] SimParams readSimParams(ParamTree& tree);
-/// The same for a robot that is to be simulated: its body must fit into the box it plans with.
+/// The same for a robot that is to be simulated: its body must fit into the box it plans with, and
+/// follows from that box where it is not given.
 [[nodiscard]] SimParams readSimParams(ParamTree& tree, const RobotModel& robot);
 
 struct BatteryState {

@@ -20,4 +20,9 @@ namespace spelunk::sim {
 [[nodiscard]] std::string missingStartText(const WorldMesh& mesh, const Eigen::Vector3d& size_m,
                                            const std::string& option);
 
+/// The start that is told (world frame), else the world's own, in the frame of the mesh. Throws
+/// OutsideError with missingStartText() if there is none.
+[[nodiscard]] Pose chooseStart(const WorldMesh& mesh, const std::optional<Pose>& told,
+                               const Eigen::Vector3d& size_m, const std::string& option);
+
 }  // namespace spelunk::sim

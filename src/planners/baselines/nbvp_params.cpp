@@ -4,6 +4,13 @@
 
 namespace spelunk::planners::baselines {
 
+NbvpParams NbvpParams::resolvedFor(const RobotModel& robot) const {
+  NbvpParams resolved = *this;
+  resolved.gain_min_m3 = passableThreshold(gain_min_m3, kPlaceShare, robot);
+  sayLowered("nbvp.gain_min_m3", gain_min_m3, resolved.gain_min_m3, robot);
+  return resolved;
+}
+
 std::vector<std::string> NbvpParams::problems() const {
   std::vector<std::string> problems;
   if (give_up_vertices < max_vertices)
@@ -17,9 +24,8 @@ std::vector<std::string> NbvpParams::problems() const {
   return problems;
 }
 
-std::vector<std::string> NbvpParams::problemsFor(const RobotModel& robot,
+std::vector<std::string> NbvpParams::problemsFor(const RobotModel& /*robot*/,
                                                  double resolution_m) const {
-  static_cast<void>(robot);
   return edgeProblems("edge_length_max_m", edge_length_max_m, resolution_m);
 }
 

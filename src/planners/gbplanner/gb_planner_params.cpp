@@ -4,6 +4,15 @@
 
 namespace spelunk::planners::gbplanner {
 
+GbPlannerParams GbPlannerParams::resolvedFor(const RobotModel& robot) const {
+  GbPlannerParams resolved = *this;
+  resolved.gain_threshold_m3 = passableThreshold(gain_threshold_m3, kPathShare, robot);
+  resolved.frontier_gain_m3 = passableThreshold(frontier_gain_m3, kPlaceShare, robot);
+  sayLowered("gbplanner.gain_threshold_m3", gain_threshold_m3, resolved.gain_threshold_m3, robot);
+  sayLowered("gbplanner.frontier_gain_m3", frontier_gain_m3, resolved.frontier_gain_m3, robot);
+  return resolved;
+}
+
 std::vector<std::string> GbPlannerParams::problems() const {
   std::vector<std::string> problems;
   if (edge_length_min_m >= edge_length_max_m)

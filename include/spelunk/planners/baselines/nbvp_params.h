@@ -48,6 +48,8 @@ struct NbvpParams {
     field("tried_radius_m", tried_radius_m, Bounds{0.1, 50.0},
           "edges that end this near to a failed one's end are the same");
   }
+  /// With a least gain that the robot's sensors can pass, see passableThreshold().
+  [[nodiscard]] NbvpParams resolvedFor(const RobotModel& robot) const;
   /// Rules between fields, for the tree's problem list.
   [[nodiscard]] std::vector<std::string> problems() const;
   /// The same between these parameters, the robot and the map's resolution.

@@ -115,6 +115,8 @@ struct GbPlannerParams {
           "obstacles this near shape the room around an edge");
   }
 
+  /// With thresholds of gain that the robot's sensors can pass, see passableThreshold().
+  [[nodiscard]] GbPlannerParams resolvedFor(const RobotModel& robot) const;
   /// Rules between fields, for the tree's problem list.
   [[nodiscard]] std::vector<std::string> problems() const;
   /// The same between these parameters, the robot and the map's resolution.
