@@ -110,8 +110,8 @@ std::size_t countOf(const Mask& mask) {
 
 /// Calls `visit` for the voxels of a block's mask that lie between two corners.
 template <class Visit>
-void forEachVoxel(const Mask& mask, const VoxelIndex& corner, const VoxelIndex& first,
-                  const VoxelIndex& last, Visit&& visit) {
+void forEachVoxelWithin(const Mask& mask, const VoxelIndex& corner, const VoxelIndex& first,
+                        const VoxelIndex& last, Visit&& visit) {
   forEachVoxel(mask, [&](const VoxelIndex& in_block) {
     const VoxelIndex voxel = corner + in_block;
     if ((voxel.array() >= first.array()).all() && (voxel.array() <= last.array()).all())
@@ -225,7 +225,8 @@ std::vector<VoxelIndex> FrontierVoxels::within(const AxisAlignedBox& region) con
   std::vector<VoxelIndex> voxels;
   forEachBlockIn(region, [&](const Mask& mask, const VoxelIndex& corner, const VoxelIndex& first,
                              const VoxelIndex& last) {
-    forEachVoxel(mask, corner, first, last, [&](const VoxelIndex& v) { voxels.push_back(v); });
+    forEachVoxelWithin(mask, corner, first, last,
+                       [&](const VoxelIndex& v) { voxels.push_back(v); });
   });
   return voxels;
 }
@@ -234,7 +235,7 @@ std::size_t FrontierVoxels::countWithin(const AxisAlignedBox& region) const {
   std::size_t count = 0;
   forEachBlockIn(region, [&](const Mask& mask, const VoxelIndex& corner, const VoxelIndex& first,
                              const VoxelIndex& last) {
-    forEachVoxel(mask, corner, first, last, [&](const VoxelIndex&) { ++count; });
+    forEachVoxelWithin(mask, corner, first, last, [&](const VoxelIndex&) { ++count; });
   });
   return count;
 }

@@ -122,7 +122,7 @@ Answer Mission::Impl::setBounds(const AxisAlignedBox& box) {
 std::string Mission::Impl::goToProblem(const Eigen::Vector3d& target) {
   if (!target.allFinite()) return "the point holds a number that is not finite";
   if (task == Task::kStopped) return "emergency stop is on: start releases it";
-  if (isRunning(task)) return "the mission is running: pause it first";
+  if (mission::isRunning(task)) return "the mission is running: pause it first";
   const std::string problem = startProblem();
   if (!problem.empty()) return problem;
   if (!isAtRest()) return "the robot still moves: wait until it holds";

@@ -23,7 +23,7 @@ std::optional<Command> Mission::Impl::tick(double now_s) {
   now = now_s;
   updateEndurance();  // what is left decides everything below
   updateWayHome();    // and what the way home takes of it; also at rest, for people to see
-  if (!isRunning(task)) return flight.takeCommand();
+  if (!mission::isRunning(task)) return flight.takeCommand();
   // Each of the following steps may stop the robot; what is below it then sees it at rest.
   checkInputs();     // a robot that does not know where it is must not judge its path
   checkPath();       // a robot off its path is not where the checks of the path look

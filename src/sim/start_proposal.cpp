@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "spelunk/common/contract.h"
+#include "spelunk/common/params.h"
 #include "spelunk/sim/mesh_scene.h"
 #include "spelunk/sim/mesh_size.h"
 #include "spelunk/sim/start_check.h"
