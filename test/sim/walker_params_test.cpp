@@ -59,12 +59,18 @@ std::string problemsOf(const std::string& robot_name, const std::string& assignm
 }
 
 TEST(SimulatedBody, MustFitIntoTheBoxOfTheRobot) {
-  const std::string flying = problemsOf("aerial", "robot.box_m=[0.6, 1.1, 0.4]");
-  EXPECT_NE(flying.find("robot.box_m = [0.6, 1.1, 0.4]"), std::string::npos) << flying;
-  EXPECT_NE(flying.find("sim.body_m = [0.7, 0.7, 0.3]"), std::string::npos) << flying;
+  const std::string flying = problemsOf("aerial", "sim.body_m=[0.7, 1.2, 0.3]");
+  EXPECT_NE(flying.find("robot.box_m = [1.1, 1.1, 0.4]"), std::string::npos) << flying;
+  EXPECT_NE(flying.find("sim.body_m = [0.7, 1.2, 0.3]"), std::string::npos) << flying;
   const std::string walking = problemsOf("walker", "walker.trunk_m=[1.3, 0.5, 0.3]");
   EXPECT_NE(walking.find("robot.box_m = [1.2, 0.85, 0.7]"), std::string::npos) << walking;
   EXPECT_NE(walking.find("walker.trunk_m = [1.3, 0.5, 0.3]"), std::string::npos) << walking;
+}
+
+TEST(SimulatedBody, FollowsFromTheBoxWhereItIsNotGiven) {
+  EXPECT_EQ(problemsOf("aerial", "robot.box_m=[0.6, 0.9, 0.4]"), "");
+  EXPECT_EQ(bodyWithin({1.1, 1.1, 0.4}), Eigen::Vector3d(0.7, 0.7, 0.3));
+  EXPECT_TRUE((bodyWithin({0.6, 0.9, 0.4}).array() < Eigen::Array3d(0.6, 0.9, 0.4)).all());
 }
 
 TEST(SimulatedBody, OfTheShippedRobotsFits) {
