@@ -18,12 +18,19 @@ LocalFrame LocalFrame::around(const Eigen::Vector3d& first, double reach_m, doub
   const double farthest_m = first.lpNorm<Eigen::Infinity>() + reach_m;
   if (farthest_m <= std::min(range_m, kExact_m)) return {};
   const Eigen::Vector3d origin = (first / kStep_m).array().round() * kStep_m;
-  return LocalFrame(origin + Eigen::Vector3d::Zero());  // -0 becomes +0
+  return LocalFrame(Eigen::Vector3d(origin + Eigen::Vector3d::Zero()));  // -0 becomes +0
 }
 
 Eigen::Vector3d LocalFrame::written(const Eigen::Vector3d& point) const {
   if (isCallers()) return point;
-  return ((point - origin_) * kWrittenParts).array().round() / kWrittenParts;
+  return (toLocal(point) * kWrittenParts).array().round() / kWrittenParts;
+}
+
+LocalFrame LocalFrame::corrected(const Shift& correction) const {
+  LocalFrame frame = *this;
+  frame.T_caller_local_ = correction.after(T_caller_local_);
+  frame.T_caller_local_.about = toLocal(correction.about);
+  return frame;
 }
 
 std::string sayingOf(const LocalFrame& frame) {

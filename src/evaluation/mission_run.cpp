@@ -9,6 +9,8 @@
 #include "spelunk/common/log.h"
 #include "spelunk/common/self_returns.h"
 #include "spelunk/common/stopwatch.h"
+#include "spelunk/mission/mission_frame.h"
+#include "spelunk/mission/moved_mission.h"
 
 namespace spelunk::evaluation {
 namespace {
@@ -20,6 +22,7 @@ constexpr double kRateWindow_s = 10.0;
 constexpr double kOutOfEndurance_s = 0.05;
 constexpr double kStandstill_mps = 0.1;
 constexpr double kSaidAgain_s = 60.0;
+constexpr double kInTime_s = 1e-6;
 
 /// Where rays that meet nothing are reported, they make free space, and outside an open mesh that
 /// never ends: such a robot stays within the mesh. Others see no way out of it.
@@ -43,6 +46,7 @@ struct MissionRun::Impl {
         mesh_frame(mesh.frame),
         simulator(setup.sim, setup.robot, mesh, setup.start, setup.seed),
         mission(setup.mission, setup.robot, setup.map, setup.seed, setup.terrain),
+        frame(setup.robot, setup.map.resolution_m),
         bounds(boundsOf(run_setup, mesh)),
         self_returns(setup.robot, setup.map.range_min_m),
         reachable(reachableSpace(mesh, setup.start.position)),
@@ -62,6 +66,8 @@ struct MissionRun::Impl {
   void noteLeg();
   void step();
   void sense();
+  void enter(Scan scan);
+  [[nodiscard]] bool isOdometryDue();
   void takeOutSelfReturns(Scan& scan);
   void plan();
   void takeOver();
@@ -84,7 +90,8 @@ struct MissionRun::Impl {
   LocalFrame mesh_frame;
   sim::Simulator simulator;
   mission::Mission mission;
-  AxisAlignedBox bounds;  ///< Of exploration.
+  mission::MissionFrame frame;  ///< Its caller's frame is that of the simulated odometry.
+  AxisAlignedBox bounds;        ///< Of exploration.
   SelfReturns self_returns;
   ReachableSpace reachable;
   ExploredVolume explored;
@@ -95,6 +102,7 @@ struct MissionRun::Impl {
   RunRecord record;
   std::int64_t ticks = 0;
   double started_s = 0.0;
+  double next_odometry_s = 0.0;
   Eigen::Vector3d last_position = Eigen::Vector3d::Zero();
   bool is_underway = false;  ///< To the point of the newest leg.
   std::string stopped_why;   ///< Not empty: somebody ended the flight.
@@ -110,15 +118,32 @@ void MissionRun::Impl::sense() {
     explored.add(scan);
     if (!getsLost()) scans.send(scan.scan, now());
   }
-  for (Scan& scan : scans.take(now())) {
-    takeOutSelfReturns(scan);
-    const map::MapUpdate update = mission.onScan(scan);
-    if (update.dropped_far > 0 && said.allows("map range", now()))
-      log(LogLevel::kWarn, map::beyondKeysText(update, setup.map));
-    record.map_update_ms.push_back(mission.status().last_map_update_ms);
-  }
-  mission.onOdometry(simulator.odometry());
+  const RobotState report = simulator.odometry();
+  const bool is_due = isOdometryDue();
+  const auto correction = is_due ? frame.take(report) : std::nullopt;
+  for (Scan& scan : scans.take(now())) enter(std::move(scan));
+  if (is_due) mission.onOdometry(frame.now().toLocal(report));
   mission.onRemaining(remaining());
+  if (!correction) return;
+  log(LogLevel::kInfo, *correction);
+  follow(mission.commandAgain(now()));
+}
+
+bool MissionRun::Impl::isOdometryDue() {
+  if (now() + kInTime_s < next_odometry_s) return false;
+  next_odometry_s = now() + setup.delays.odometry_period_s;
+  return true;
+}
+
+void MissionRun::Impl::enter(Scan scan) {
+  const auto then = frame.at(scan.stamp_s);
+  if (!then) return;
+  takeOutSelfReturns(scan);
+  scan.T_world_sensor = then->toLocal(scan.T_world_sensor);
+  const map::MapUpdate update = mission.onScan(scan);
+  if (update.dropped_far > 0 && said.allows("map range", now()))
+    log(LogLevel::kWarn, map::beyondKeysText(update, setup.map));
+  record.map_update_ms.push_back(mission.status().last_map_update_ms);
 }
 
 void MissionRun::Impl::takeOutSelfReturns(Scan& scan) {
@@ -145,7 +170,9 @@ void MissionRun::Impl::measure() {
 }
 
 void MissionRun::Impl::follow(const std::optional<mission::Command>& command) {
-  if (command) simulator.follow(command->trajectory);
+  if (!command) return;
+  simulator.follow(frame.now().toCaller(command->trajectory));
+  simulator.take(command->posture);
 }
 
 /// One plan at a time, like a planner in a thread of its own.
@@ -216,7 +243,7 @@ void MissionRun::Impl::nextLeg() {
   GoToRecord begun;
   begun.leg = leg;
   begun.path_length_m = -record.path_length_m;
-  const mission::Answer given = mission.goTo(leg.target, leg.navigation);
+  const mission::Answer given = mission.goTo(frame.now().toLocal(leg.target), leg.navigation);
   if (!given.accepted) {
     begun.status.outcome = mission::GoToOutcome::kUnreachable;
     begun.status.reason = given.reason;

@@ -125,20 +125,20 @@ std::vector<double> planTimes(const RunRecord& record) {
 }
 
 /// A record in a parallel frame.
-RunRecord moved(RunRecord record, const Eigen::Vector3d& by) {
+RunRecord moved(RunRecord record, const Shift& shift) {
   using spelunk::moved;
-  record.outcome = moved(record.outcome, by);
-  for (TimelineRow& row : record.timeline) row.pose = moved(row.pose, by);
+  record.outcome = moved(record.outcome, shift);
+  for (TimelineRow& row : record.timeline) row.pose = moved(row.pose, shift);
   for (PlanRow& row : record.plans) {
-    row.verdict = moved(row.verdict, by);
-    row.result.reason = moved(row.result.reason, by);
+    row.verdict = moved(row.verdict, shift);
+    row.result.reason = moved(row.result.reason, shift);
   }
   for (GoToRecord& leg : record.legs) {
-    leg.leg.target = moved(leg.leg.target, by);
-    leg.status = moved(std::move(leg.status), by);
+    leg.leg.target = moved(leg.leg.target, shift);
+    leg.status = moved(std::move(leg.status), shift);
   }
-  record.remaining_targets = moved(std::move(record.remaining_targets), by);
-  if (auto& leak = record.reachable.leak) leak->place = moved(leak->place, by);
+  record.remaining_targets = moved(std::move(record.remaining_targets), shift);
+  if (auto& leak = record.reachable.leak) leak->place = moved(leak->place, shift);
   return record;
 }
 

@@ -33,7 +33,9 @@ std::string originComment(const LocalFrame& frame) {
   text.imbue(std::locale::classic());
   text.precision(12);
   text << "# origin " << frame.origin().x() << ' ' << frame.origin().y() << ' '
-       << frame.origin().z() << " m: add it to every coordinate of this file\n";
+       << frame.origin().z() << " m: add it to every coordinate of this file";
+  if (frame.yaw() != 0.0) text << ", turned by " << frame.yaw() << " rad about z before";
+  text << '\n';
   return text.str();
 }
 

@@ -23,6 +23,7 @@ constexpr double kMoved_m = 0.15;
 constexpr int kRetimedInPlaceMax = 2;
 /// Between the robot's nose and what it stops before.
 constexpr double kStopMargin_m = 0.6;
+constexpr double kNewest_s = 1e-6;       // a state that is not older is of now
 constexpr double kLagMax_m = 2.0;        // how far back on its line a late robot is looked for
 constexpr double kLagRetimed_m = 0.4;    // half a body length; less is the controller's work
 constexpr double kRetimePeriod_s = 2.0;  // a late robot shall not be timed anew at every tick
@@ -53,7 +54,7 @@ double Flight::restTime(double now_s) const {
 
 Trajectory Flight::smoothest(const Path& path, const navigation::MotionStart& start,
                              const Eigen::Vector3d& box) {
-  const MotionLimits limits = limitsOf(robot_);
+  const MotionLimits limits = this->limits();
   map::ConfigurationSpace& space = space_.of(box);
   for (const double tolerance : kCornerTolerances_m) {
     Trajectory trajectory = navigation::timed(path, limits, start, tolerance);
@@ -80,12 +81,13 @@ void Flight::fly(const Leg& leg, const Pose& here, double now_s) {
   Trajectory trajectory = smoothest(whole, start, leg.corner_box);
   active_.emplace(whole, trajectory, leg.kind, leg.box, space_.resolution());
   command_ = Command{std::move(whole), std::move(trajectory), leg.kind};
+  posture_ = Posture::kStand;
 }
 
 void Flight::goBack(const Path& way, const Pose& here, double now_s) {
   Path back = way;
   for (Pose& pose : back) pose.yaw = here.yaw + M_PI;  // timed as if it turned its face that way
-  MotionLimits limits = limitsOf(robot_);
+  MotionLimits limits = this->limits();
   limits.speed_mps *= kBackSpeedShare;
   Trajectory trajectory = navigation::timed(back, limits, {now_s, Eigen::Vector3d::Zero(), 0.0});
   for (TrajectoryPoint& point : trajectory) {
@@ -95,10 +97,43 @@ void Flight::goBack(const Path& way, const Pose& here, double now_s) {
   for (Pose& pose : back) pose.yaw = here.yaw;
   active_.emplace(back, trajectory, PathKind::kLocal, space_.bodyBox(), space_.resolution());
   command_ = Command{std::move(back), std::move(trajectory), PathKind::kLocal};
+  posture_ = Posture::kStand;
 }
 
-void Flight::stop() {
+MotionLimits Flight::limits() const {
+  MotionLimits limits = limitsOf(robot_);
+  limits.speed_mps = std::min(limits.speed_mps, speed_limit_mps_);
+  return limits;
+}
+
+RobotState Flight::movedOn(const RobotState& seen, double now_s) const {
+  RobotState state = seen;
+  const double step_s = now_s - seen.stamp_s;
+  if (step_s <= kNewest_s) return state;
+  state.stamp_s = now_s;
+  if (!active_) {
+    const double speed = seen.velocity.norm();
+    const double braking_s = std::min(step_s, speed / robot_.braking_deceleration_mps2);
+    const double left =
+        speed > 0.0 ? 1.0 - braking_s * robot_.braking_deceleration_mps2 / speed : 0.0;
+    state.pose.position += 0.5 * (1.0 + left) * braking_s * seen.velocity;
+    state.velocity *= left;
+    state.yaw_rate = 0.0;
+    return state;
+  }
+  const TrajectoryPoint then = active_->reference(seen.stamp_s);
+  const TrajectoryPoint now = active_->reference(now_s);
+  state.pose.position += now.pose.position - then.pose.position;
+  state.pose.yaw = wrapAngle(state.pose.yaw + now.pose.yaw - then.pose.yaw);
+  state.velocity += now.velocity - then.velocity;
+  state.yaw_rate += now.yaw_rate - then.yaw_rate;
+  return state;
+}
+
+void Flight::stop(Posture posture) {
   command_ = Command{};
+  command_->posture = posture;
+  posture_ = posture;
   active_.reset();
   retimed_in_place_ = 0;
 }
@@ -158,8 +193,8 @@ bool Flight::isOverdue(const Pose& here, double now_s) const {
   return active_ && now_s >= active_->endTime() + kArrivalGrace_s && !hasArrived(here, now_s);
 }
 
-bool Flight::isIgnored(const Pose& here, double now_s) const {
-  if (!active_ || (here.position - sent_from_).norm() >= kMoved_m) return false;
+bool Flight::isIgnored(const Pose& seen, const Pose& here, double now_s) const {
+  if (!active_ || (seen.position - sent_from_).norm() >= kMoved_m) return false;
   return gapOffPath(here, now_s) || isOverdue(here, now_s) ||
          retimed_in_place_ >= kRetimedInPlaceMax;
 }
@@ -191,9 +226,25 @@ std::optional<double> Flight::findObstacleAhead(double now_s) {
 std::optional<Command> Flight::takeCommand() {
   std::optional<Command> taken = std::exchange(command_, std::nullopt);
   if (!taken) return taken;
-  for (Pose& pose : taken->path) pose.position.z() -= robot_.box_lift_m;
-  for (TrajectoryPoint& point : taken->trajectory) point.pose.position.z() -= robot_.box_lift_m;
-  return taken;
+  return ofBase(std::move(*taken));
+}
+
+Command Flight::commandAgain(double now_s) const {
+  Command again;
+  again.posture = posture_;
+  if (!active_ || now_s >= active_->endTime()) return again;
+  again.path = rest(now_s);
+  again.kind = active_->kind();
+  again.trajectory.push_back(active_->reference(now_s));
+  for (const TrajectoryPoint& point : active_->trajectory())
+    if (point.time_s > now_s) again.trajectory.push_back(point);
+  return ofBase(std::move(again));
+}
+
+Command Flight::ofBase(Command command) const {
+  for (Pose& pose : command.path) pose.position.z() -= robot_.box_lift_m;
+  for (TrajectoryPoint& point : command.trajectory) point.pose.position.z() -= robot_.box_lift_m;
+  return command;
 }
 
 }  // namespace spelunk::mission

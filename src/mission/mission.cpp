@@ -95,6 +95,11 @@ std::optional<planners::PlanRequest> Mission::requestHere(double now_s) {
 
 std::optional<Command> Mission::tick(double now_s) { return impl_->tick(now_s); }
 
+std::optional<Command> Mission::commandAgain(double now_s) const {
+  if (impl_->task == Task::kIdle) return std::nullopt;
+  return impl_->flight.commandAgain(now_s);
+}
+
 std::optional<PlanJob> Mission::takeJob() { return impl_->desk.takeJob(); }
 std::optional<Command> Mission::accept(const PlanOutcome& outcome, double now_s) {
   impl_->take(outcome, now_s);

@@ -8,6 +8,8 @@ namespace {
 
 using planners::PathKind;
 
+constexpr double kStandUp_s = 4.0;  // legs of any robot lift it in that time
+
 GoToOutcome pointOutcome(Event event) {
   if (event == Event::kPointReached) return GoToOutcome::kReached;
   return event == Event::kPointUnreachable ? GoToOutcome::kUnreachable : GoToOutcome::kAborted;
@@ -27,6 +29,7 @@ void Mission::Impl::happens(Event event, const std::string& why) {
       return;
     case Action::kExplore:
       end_reason.clear();
+      standUp();
       desk.beginExploring(now);
       return show(MissionState::kExplore, why);
     case Action::kClimb:
@@ -46,12 +49,19 @@ void Mission::Impl::happens(Event event, const std::string& why) {
       return turnHome(event, before, why);
     case Action::kHalt:
       desk.drop();
-      flight.stop();
+      flight.stop(kindOf(robot) == RobotKind::kLegged ? Posture::kLie : Posture::kStand);
       return show(MissionState::kEStop, why);
     case Action::kFinish:
       flight.stop();
       return show(MissionState::kDone, why);
   }
+}
+
+void Mission::Impl::standUp() {
+  if (flight.posture() == Posture::kStand) return;
+  flight.stop();
+  flight.holdFrom(now);
+  resume_s = now + kStandUp_s;
 }
 
 /// The one place where a task ends: each part forgets what it was about to do for it. The motion

@@ -53,11 +53,13 @@ struct Mission::Impl {
   void turnHome(Event event, Task before, const std::string& why);
   void fly(const Leg& leg);
   void launchHome();
+  void standUp();
   void show(MissionState next, const std::string& why);
   void say(LogLevel level, const std::string& key, const std::string& text);
 
   // --- The steps of the tick.
   std::optional<Command> tick(double now_s);
+  void updatePose();
   void updateEndurance();
   void updateWayHome();
   void checkInputs();

@@ -53,7 +53,7 @@ std::string Mission::Impl::startProblem() {
   if (const std::string problem = space.zones().problemAt(position); !problem.empty())
     return problem;
   const Contact contact = space.contactAt(position);
-  if (contact.voxels == 0) return "";
+  if (contact.voxels == 0 || flight.posture() == Posture::kLie) return "";
   return withDoubt("start in collision: " + std::to_string(contact.voxels) +
                    " occupied voxels of the map touch the robot's body, " +
                    spelunk::toText(space.bodyBox()) + " m around " + placeOf(position) +
@@ -81,6 +81,10 @@ void Mission::Impl::takeOff() {
 }
 
 Answer Mission::Impl::start() {
+  if (flight.posture() == Posture::kLie && !way_home.isKnown()) {
+    standUp();  // home is where it stands
+    return {false, "the robot lies: it stands up now, start again in some seconds"};
+  }
   const std::string problem = startProblem();
   if (!problem.empty()) {
     reason = problem;

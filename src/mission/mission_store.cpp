@@ -87,13 +87,13 @@ planners::GraphLayer layerFrom(const Json& json) {
   return layer;
 }
 
-MissionRecord moved(MissionRecord record, const Eigen::Vector3d& by) {
+MissionRecord moved(MissionRecord record, const Shift& shift) {
   using spelunk::moved;
-  record.bounds = moved(record.bounds, by);
-  record.given_zones = moved(std::move(record.given_zones), by);
-  record.marked_zones = moved(std::move(record.marked_zones), by);
-  record.trail = moved(std::move(record.trail), by);
-  record.graph = moved(std::move(record.graph), by);
+  record.bounds = moved(record.bounds, shift);
+  record.given_zones = moved(std::move(record.given_zones), shift);
+  record.marked_zones = moved(std::move(record.marked_zones), shift);
+  record.trail = moved(std::move(record.trail), shift);
+  record.graph = moved(std::move(record.graph), shift);
   return record;
 }
 
@@ -101,6 +101,10 @@ MissionRecord moved(MissionRecord record, const Eigen::Vector3d& by) {
 Json jsonOf(const MissionRecord& record) {
   Json json{{"format", kFormat}, {"remaining_s", record.remaining_s}};
   if (!record.frame.isCallers()) json["map_origin_m"] = vectorOf(record.frame.origin());
+  if (record.frame.yaw() != 0.0) {
+    json["map_yaw_rad"] = record.frame.yaw();
+    json["map_turned_about_m"] = vectorOf(record.frame.T_caller_local().about);
+  }
   json["bounds"] = {{"min", vectorOf(record.bounds.min)}, {"max", vectorOf(record.bounds.max)}};
   json["zones"] = Json::array();
   for (const NoGoZone& zone : record.given_zones)
@@ -117,12 +121,19 @@ Json jsonOf(const MissionRecord& record) {
   return json;
 }
 
+Shift frameFrom(const Json& json) {
+  Shift T_caller_map(vectorFrom(json.at("map_origin_m"), 0.0));
+  if (!json.contains("map_yaw_rad")) return T_caller_map;
+  T_caller_map.yaw_rad = json.at("map_yaw_rad").get<double>();
+  T_caller_map.about = vectorFrom(json.at("map_turned_about_m"), 0.0);
+  return T_caller_map;
+}
+
 MissionRecord recordFrom(const Json& json) {
   if (json.at("format").get<int>() != kFormat) throw OutsideError("it has an unknown format");
   MissionRecord record;
   record.remaining_s = json.at("remaining_s").get<double>();
-  if (json.contains("map_origin_m"))
-    record.frame = LocalFrame(vectorFrom(json.at("map_origin_m"), 0.0));
+  if (json.contains("map_origin_m")) record.frame = LocalFrame(frameFrom(json));
   record.bounds.min = vectorFrom(json.at("bounds").at("min"), -kNoLimit);
   record.bounds.max = vectorFrom(json.at("bounds").at("max"), kNoLimit);
   for (const Json& zone : json.at("zones"))
@@ -131,7 +142,8 @@ MissionRecord recordFrom(const Json& json) {
   for (const Json& pose : json.at("trail"))
     record.trail.push_back({vectorFrom(pose, 0.0), pose.at(3).get<double>()});
   for (const Json& layer : json.at("graph")) record.graph.layers.push_back(layerFrom(layer));
-  return moved(std::move(record), -record.frame.origin());
+  const Shift T_map_caller = record.frame.T_caller_local().inverse();
+  return moved(std::move(record), T_map_caller);
 }
 
 }  // namespace
@@ -142,7 +154,7 @@ void writeRecord(const std::string& folder, const MissionRecord& record) {
   const std::string path = folder + "/mission.json";
   const std::string temporary = path + ".tmp";
   std::ofstream file(temporary);
-  file << jsonOf(moved(record, record.frame.origin())).dump() << '\n';
+  file << jsonOf(moved(record, record.frame.T_caller_local())).dump() << '\n';
   file.close();
   if (!file)
     throw OutsideError("cannot write '" + path + "': check the folder, its rights and space");

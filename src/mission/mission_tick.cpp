@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cstdio>
 
 #include "mission_impl.h"
 #include "spelunk/common/message_text.h"
@@ -21,6 +22,7 @@ constexpr const char* kIgnored =
 /// The order is part of the promise to come home; what comes first is relied upon by what follows.
 std::optional<Command> Mission::Impl::tick(double now_s) {
   now = now_s;
+  updatePose();       // all below asks where the robot is
   updateEndurance();  // what is left decides everything below
   updateWayHome();    // and what the way home takes of it; also at rest, for people to see
   if (!mission::isRunning(task)) return flight.takeCommand();
@@ -39,6 +41,25 @@ std::optional<Command> Mission::Impl::tick(double now_s) {
   stepPoint();       // the same for a flight to a point
   askForPlan();      // last: a plan begins from what was decided above
   return flight.takeCommand();
+}
+
+/// Between two reports the robot moves on. Where they come seldom it flies so slowly that it cannot
+/// get farther off its path between them than it may.
+void Mission::Impl::updatePose() {
+  if (!watch.knowsPose()) return;
+  watch.show(flight.movedOn(watch.reported(), std::min(now, watch.knownUntil())));
+  const double period_s = watch.odometryPeriod();
+  if (period_s <= 0.0) return;
+  const double limit_mps = params.deviation_max_m / period_s;
+  flight.limitSpeed(limit_mps);
+  if (limit_mps >= robot.speed_max_mps || !isRunning(task)) return;
+  char text[200];
+  std::snprintf(text, sizeof text,
+                "odometry comes every %.2f s: the robot moves at %.2f m/s; for %.2g m/s send it "
+                "%.2g times a second or more often",
+                period_s, limit_mps, robot.speed_max_mps,
+                robot.speed_max_mps / params.deviation_max_m);
+  if (throttle.allows("slow odometry", now)) log(LogLevel::kWarn, text);
 }
 
 void Mission::Impl::updateEndurance() { endurance.update(now); }
@@ -66,7 +87,7 @@ void Mission::Impl::checkInputs() {
 }
 
 void Mission::Impl::checkPath() {
-  if (flight.isIgnored(watch.pose(), now)) {
+  if (flight.isIgnored(watch.reported().pose, watch.pose(), now)) {
     say(LogLevel::kWarn, "ignored", kIgnored);
     happens(Event::kPathIgnored, withDoubt(kIgnored));
     resume_s = now + kSendAgain_s;

@@ -58,8 +58,8 @@ std::optional<Path> findAffordable(const RunningJob& job, const PlanOutcome& out
       !basis.space.isClear(outcome.home.path, basis.robot.box_m))
     return std::nullopt;
   Path whole = basis.flight.joined(outcome.plan.path, job.takes_over_s, basis.watch.pose(), now_s);
-  const double there_s = navigation::travelTime(whole, limitsOf(basis.robot));
-  const double home_s = navigation::travelTime(outcome.home.path, limitsOf(basis.robot));
+  const double there_s = navigation::travelTime(whole, basis.flight.limits());
+  const double home_s = navigation::travelTime(outcome.home.path, basis.flight.limits());
   if (basis.endurance.guard().marginAfter(there_s, home_s) < 0.0) return std::nullopt;
   return whole;
 }

@@ -65,7 +65,7 @@ void WayHome::noteRoute(const Path& rest, const planners::PlanResult& home) {
 }
 
 double WayHome::travelTime(const Path& path) const {
-  return navigation::travelTime(path, limitsOf(basis_.robot));
+  return navigation::travelTime(path, basis_.flight.limits());
 }
 
 std::optional<KnownWay> WayHome::wayByTrail() {

@@ -50,15 +50,15 @@ const char* toText(PathKind kind) {
   return "unknown";
 }
 
-RemainingTarget moved(RemainingTarget target, const Eigen::Vector3d& by) {
-  target.position += by;
-  target.why = spelunk::moved(target.why, by);
+RemainingTarget moved(RemainingTarget target, const Shift& shift) {
+  target.position = shift(target.position);
+  target.why = spelunk::moved(target.why, shift);
   return target;
 }
 
-PlannerGraph moved(PlannerGraph graph, const Eigen::Vector3d& by) {
+PlannerGraph moved(PlannerGraph graph, const Shift& shift) {
   for (GraphLayer& layer : graph.layers)
-    for (GraphVertex& vertex : layer.vertices) vertex.position += by;
+    for (GraphVertex& vertex : layer.vertices) vertex.position = shift(vertex.position);
   return graph;
 }
 

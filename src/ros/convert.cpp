@@ -155,7 +155,8 @@ geometry_msgs::TransformStamped frameMsg(const LocalFrame& frame, const std::str
   message.header.stamp = stamp;
   message.child_frame_id = local;
   message.transform.translation = vectorMsg(frame.origin());
-  message.transform.rotation.w = 1.0;
+  message.transform.rotation =
+      quaternionMsg(Eigen::Quaterniond(Eigen::AngleAxisd(frame.yaw(), Eigen::Vector3d::UnitZ())));
   return message;
 }
 
@@ -206,6 +207,18 @@ FromMsg<RobotState> fromMsg(const nav_msgs::Odometry& message,
   state.velocity = T.linear() * linear;
   state.yaw_rate = (T.linear() * angular).z();
   return {state, ""};
+}
+
+RobotState ofBase(const RobotState& child, const Eigen::Isometry3d& T_child_base) {
+  const Eigen::Isometry3d T_world_child =
+      Eigen::Translation3d(child.pose.position) * child.orientation;
+  const Eigen::Isometry3d T = T_world_child * T_child_base;
+  RobotState base = child;
+  base.pose = poseOf(T);
+  base.orientation = Eigen::Quaterniond(T.linear());
+  const Eigen::Vector3d lever = T.translation() - child.pose.position;
+  base.velocity += Eigen::Vector3d(0.0, 0.0, child.yaw_rate).cross(lever);
+  return base;
 }
 
 FromMsg<AxisAlignedBox> boundsFromMsg(const geometry_msgs::Point& min,

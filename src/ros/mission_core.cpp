@@ -12,6 +12,7 @@ namespace {
 void place(MissionCore& core, const LocalFrame& frame) {
   core.is_placed = true;
   core.frame = frame;
+  core.steady.place(frame);
   logToRos(frame);
   if (const std::string text = sayingOf(frame); !text.empty()) log(LogLevel::kInfo, text);
 }

@@ -2,11 +2,14 @@
 
 #include <tf2_eigen/tf2_eigen.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <utility>
 
+#include "spelunk/mission/robot_watch.h"
 #include "spelunk/ros/convert.h"
 #include "spelunk/ros/frame_names.h"
+#include "spelunk/ros/ros_log.h"
 #include "spelunk/ros/stamp_check.h"
 
 namespace spelunk::bridge {
@@ -17,6 +20,7 @@ constexpr std::uint32_t kCloudQueue = 5;
 constexpr std::uint32_t kOdometryQueue = 50;
 constexpr double kOvertaken_s = 0.5;  // no network holds one message back for longer
 constexpr int kLateInARow = 5;        // more than a network does
+constexpr double kTfMoved_m = 0.05;   // of its own accord tf moves the odometry's frame less
 constexpr double kBlur = 0.1;         // of a voxel: less does no harm
 
 }  // namespace
@@ -61,11 +65,13 @@ void PlannerInputs::expectInputs() {
   };
   core_.with([&](MissionCore& c) {
     const double now_s = missionTime(c, ::ros::Time::now());
+    const double scan_silence_s =
+        std::max(params_.silence_s, mission::scanSilence(c.mission.robot()));
     odometry_input_ = c.watch.expect({"odometry", node_.resolveName("odometry"), "odometry",
                                       params_.silence_s, publishersOf(odometry_subscriber_), 1},
                                      now_s);
     cloud_input_ = c.watch.expect({"point clouds", node_.resolveName("pointcloud"), "pointcloud",
-                                   params_.silence_s, publishersOf(cloud_subscriber_), 0},
+                                   scan_silence_s, publishersOf(cloud_subscriber_), 0},
                                   now_s);
   });
 }
@@ -124,13 +130,30 @@ FromMsg<Eigen::Isometry3d> PlannerInputs::findTransform(const std::string& frame
   }
 }
 
+/// Odometry knows no corrections: what the robot carries is where tf has it in the odometry's
+/// frame, and that is where the newest odometry had it in the world. Between two transforms of a
+/// SLAM with a correction between them tf has places where the robot never was.
+FromMsg<Eigen::Isometry3d> PlannerInputs::findByOdometry(const std::string& frame,
+                                                         const ::ros::Time& stamp) const {
+  if (!odometry_frame_.empty() && odometry_frame_ != params_.world_frame) {
+    try {
+      const Eigen::Isometry3d T =
+          tf2::transformToEigen(tf_buffer_.lookupTransform(odometry_frame_, frame, stamp));
+      if (T.matrix().allFinite()) return {T_world_odometry_ * T, ""};
+    } catch (const tf2::TransformException&) {
+      // By way of the world, or what is missing there.
+    }
+  }
+  return findTransform(frame, stamp);
+}
+
 bool PlannerInputs::hasTransform(const std::string& frame) const {
   return findTransform(frame, ::ros::Time(0)).value.has_value();
 }
 
 FrameTree PlannerInputs::tree() const {
   return {[this](const std::string& frame, const ::ros::Time& stamp) {
-            return findTransform(frame, stamp);
+            return findByOdometry(frame, stamp);
           },
           [this](const std::string& frame) -> std::optional<std::string> {
             std::string parent;
@@ -219,9 +242,11 @@ void PlannerInputs::enter(const PendingClouds::Item& item) {
     c.doubt = self_returns_.doubt();
     c.flaw = self_returns_.finding();
     if (!c.flaw.empty()) c.watch.report("self returns", c.flaw, now_s);
-    scan.T_world_sensor =
-        frameAt(c, place.T_world_sensor.translation()).toLocal(place.T_world_sensor);
+    (void)frameAt(c, place.T_world_sensor.translation());
     scan.stamp_s = c.clock.toMission(item.cloud->header.stamp);
+    const auto then = c.steady.at(scan.stamp_s);
+    if (!then) return;
+    scan.T_world_sensor = then->toLocal(place.T_world_sensor);
     const map::MapUpdate update = c.mission.onScan(scan);
     if (update.dropped_far > 0)
       c.watch.report("map range", map::beyondKeysText(update, c.mission.map().params()), now_s);
@@ -284,18 +309,54 @@ void PlannerInputs::onOdometry(const nav_msgs::Odometry::ConstPtr& odometry) {
     if (!state.value)
       return reportOdometry("odometry content",
                             "odometry " + state.problem + ": check the state estimator");
-    takeOver(*odometry, *state.value);
+    std::string base_frame = frameName(odometry->child_frame_id);
+    if (const auto T_child_base = findBaseIn(base_frame)) {
+      state.value = ofBase(*state.value, *T_child_base);
+      base_frame = prefixed(params_.frame_prefix, params_.base_frame);
+    }
+    takeOver(*odometry, base_frame, *state.value, *T_world_frame.value);
   });
 }
 
-void PlannerInputs::takeOver(const nav_msgs::Odometry& odometry, const RobotState& state) {
+/// Where tf has the base against the frame that odometry is of; none if that is the base, or if tf
+/// does not know: then it is taken for the base.
+std::optional<Eigen::Isometry3d> PlannerInputs::findBaseIn(const std::string& child) {
+  const std::string base = prefixed(params_.frame_prefix, params_.base_frame);
+  if (child.empty() || child == base) return std::nullopt;
+  try {
+    const Eigen::Isometry3d T =
+        tf2::transformToEigen(tf_buffer_.lookupTransform(child, base, ::ros::Time(0)));
+    if (!T.matrix().allFinite()) return std::nullopt;
+    if (std::exchange(said_child_, child) != child)
+      log(LogLevel::kInfo, "odometry is of the frame '" + child + "': the robot's base '" + base +
+                               "' is found from it by tf");
+    return T;
+  } catch (const tf2::TransformException&) {
+    return std::nullopt;
+  }
+}
+
+void PlannerInputs::takeOver(const nav_msgs::Odometry& odometry, const std::string& base_frame,
+                             const RobotState& state, const Eigen::Isometry3d& T_world_frame) {
+  odometry_frame_ = frameName(odometry.header.frame_id);
+  const Eigen::Isometry3d before = std::exchange(T_world_odometry_, T_world_frame);
   const Eigen::Isometry3d T_world_base =
       Eigen::Translation3d(state.pose.position) * state.orientation;
-  places_.onOdometry(frameName(odometry.header.frame_id), frameName(odometry.child_frame_id),
-                     odometry.header.stamp.toSec(), T_world_base);
+  places_.onOdometry(odometry_frame_, base_frame, odometry.header.stamp.toSec(), T_world_base);
   core_.with([&](MissionCore& c) {
-    RobotState timed = frameAt(c, state.pose.position).toLocal(state);
-    timed.stamp_s = c.clock.toMission(odometry.header.stamp);
+    RobotState report = state;
+    report.stamp_s = c.clock.toMission(odometry.header.stamp);
+    (void)frameAt(c, state.pose.position);
+    if (const auto correction = c.steady.take(report)) {
+      log(LogLevel::kInfo, *correction);
+      c.frame = c.steady.now();
+      logToRos(c.frame);
+      c.was_corrected = true;
+      const bool is_by_tf = distance(poseOf(before), poseOf(T_world_frame)) > kTfMoved_m;
+      if (is_by_tf) c.steady.forgetPast();  // all is looked up by way of tf as it is now
+      if (is_by_tf) places_.correct(c.steady.correction());
+    }
+    const RobotState timed = c.frame.toLocal(report);
     c.robot = timed;
     c.watch.used(odometry_input_, missionTime(c, ::ros::Time::now()));
     c.mission.onOdometry(timed);

@@ -31,7 +31,8 @@ PlannerNode::PlannerNode(const ::ros::NodeHandle& node, const ::ros::NodeHandle&
       worker_(planner_, [this](const mission::PlanOutcome& outcome) { takeOver(outcome); }),
       inputs_(node_, params_, setup.cloud, core_),
       services_(private_node, params_.world_frame, localFrame(params_),
-                static_cast<std::uint64_t>(params_.seed), setup.navigation, core_, planner_),
+                static_cast<std::uint64_t>(params_.seed), setup.navigation, core_, planner_,
+                urgent_, [this] { outputs_.publishHold(::ros::Time::now()); }),
       tick_timer_(node_.createTimer(::ros::Duration(1.0 / params_.tick_rate_hz),
                                     [this](const ::ros::TimerEvent&) { tick(); })),
       view_spinner_(1, &view_queue_) {
@@ -57,10 +58,14 @@ void PlannerNode::tick() {
   holdingOnError(core_, "the mission's tick", [&] {
     const auto job = core_.with([&](MissionCore& core) {
       const double now_s = missionTime(core, ::ros::Time::now());
+      if (const auto what = urgent_.take()) (void)carryOut(*what, core);
       core.mission.onRemaining(core.endurance.remaining(now_s));
       publishFrameIfNew(core);
       noteInputs(core, now_s);
-      if (const auto command = core.mission.tick(now_s)) publish(core, *command);
+      const auto command = core.mission.tick(now_s);
+      if (command) publish(core, *command);
+      if (core.was_corrected && !command) sayCommandAgain(core, now_s);
+      core.was_corrected = false;
       startIfWanted(core, now_s);
       core.watch.checkSilence(now_s);
       publishStatusIfChanged(core, now_s);
@@ -99,7 +104,13 @@ void PlannerNode::startIfWanted(MissionCore& core, double now_s) {
     log(LogLevel::kWarn, "not started yet: " + answer.reason);
 }
 
+/// Odometry was corrected: what was commanded lies elsewhere in the world frame now.
+void PlannerNode::sayCommandAgain(MissionCore& core, double now_s) {
+  if (const auto again = core.mission.commandAgain(now_s)) publish(core, *again);
+}
+
 void PlannerNode::publish(MissionCore& core, const mission::Command& command) {
+  if (urgent_.holdsRobot()) return;  // the tick that carries it out commands anew
   core.kind = command.kind;
   outputs_.publishCommand(core.frame.toCaller(command), core.clock, ::ros::Time::now());
 }

@@ -1,6 +1,7 @@
 #include "spelunk/ros/planner_outputs.h"
 
 #include <octomap/OcTree.h>
+#include <std_msgs/Bool.h>
 #include <visualization_msgs/MarkerArray.h>
 
 #include "spelunk/ros/convert.h"
@@ -45,6 +46,7 @@ PlannerOutputs::PlannerOutputs(::ros::NodeHandle& node, const std::string& world
       path_(node.advertise<nav_msgs::Path>("path", 1, /*latch=*/true)),
       trajectory_(
           node.advertise<trajectory_msgs::MultiDOFJointTrajectory>("command/trajectory", 1)),
+      stand_(node.advertise<std_msgs::Bool>("command/stand", 1, /*latch=*/true)),
       status_(node.advertise<PlannerStatus>("status", 10)),
       graph_(node.advertise<Graph>("graph", 1)),
       markers_(node.advertise<visualization_msgs::MarkerArray>("markers", 1)),
@@ -61,11 +63,25 @@ void PlannerOutputs::publishFrame(const LocalFrame& frame, const ::ros::Time& no
 
 void PlannerOutputs::publishCommand(const mission::Command& command, const MissionClock& clock,
                                     const ::ros::Time& now) {
+  publishPosture(command.posture);
   path_.publish(bridge::toMsg(command.path, frame_, now));
   if (trajectory_.getNumSubscribers() == 0) return;
   const ::ros::Time start =
       command.trajectory.empty() ? now : clock.toRos(command.trajectory.front().time_s);
   trajectory_.publish(bridge::toMsg(command.trajectory, frame_, start));
+}
+
+void PlannerOutputs::publishPosture(Posture posture) {
+  if (said_posture_ == posture) return;
+  said_posture_ = posture;
+  std_msgs::Bool stand;
+  stand.data = posture == Posture::kStand;
+  stand_.publish(stand);
+}
+
+void PlannerOutputs::publishHold(const ::ros::Time& now) {
+  path_.publish(bridge::toMsg(Path(), frame_, now));
+  trajectory_.publish(bridge::toMsg(Trajectory(), frame_, now));
 }
 
 void PlannerOutputs::publishStatus(const mission::MissionStatus& status,
@@ -102,9 +118,8 @@ void PlannerOutputs::publishTerrain(const MissionView& view, const ::ros::Time& 
     elevation_.publish(elevationMsg(*view.terrain, idOf(view.frame), now));
   if (traversability_.getNumSubscribers() == 0) return;
   nav_msgs::OccupancyGrid grid = traversabilityMsg(*view.terrain, frame_, now);
-  grid.info.origin.position.x += view.frame.origin().x();
-  grid.info.origin.position.y += view.frame.origin().y();
-  grid.info.origin.position.z += view.frame.origin().z();
+  const auto corner = fromMsg(grid.info.origin);
+  if (corner.value) grid.info.origin = bridge::toMsg(poseOf(view.frame.toCaller(*corner.value)));
   traversability_.publish(grid);
 }
 

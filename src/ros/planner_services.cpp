@@ -14,6 +14,9 @@ namespace {
 constexpr const char* kNoOdometry =
     "no good odometry has arrived yet: check the topic 'odometry' and the node's warnings";
 
+/// So long an urgent request waits for the mission; then it is taken up by the next tick.
+constexpr double kUrgentWait_s = 0.05;
+
 constexpr double kCornerError_m = 1e-3;  ///< More is said.
 
 template <class Response>
@@ -50,22 +53,31 @@ bool answering(Response& response, std::string Response::*text, F&& callback) {
 PlannerServices::PlannerServices(const ::ros::NodeHandle& private_node,
                                  const std::string& world_frame, const std::string& local_frame,
                                  std::uint64_t seed, const navigation::NavigationParams& navigation,
-                                 GuardedCore& core, GuardedPlanner& planner)
+                                 GuardedCore& core, GuardedPlanner& planner, UrgentRequests& urgent,
+                                 HoldNow hold_now)
     : world_frame_(world_frame),
       local_frame_(local_frame),
       navigation_(navigation),
       rng_(seed),
       core_(core),
       planner_(planner),
+      urgent_(urgent),
+      hold_now_(std::move(hold_now)),
       node_(private_node),
-      spinner_(1, &queue_) {
+      spinner_(1, &queue_),
+      start_node_(private_node),
+      start_spinner_(1, &start_queue_),
+      urgent_node_(private_node),
+      urgent_spinner_(1, &urgent_queue_) {
   node_.setCallbackQueue(&queue_);
+  start_node_.setCallbackQueue(&start_queue_);
+  urgent_node_.setCallbackQueue(&urgent_queue_);
   using Self = PlannerServices;
-  servers_ = {node_.advertiseService("start", &Self::start, this),
-              node_.advertiseService("pause", &Self::pause, this),
-              node_.advertiseService("home", &Self::home, this),
-              node_.advertiseService("estop", &Self::emergencyStop, this),
-              node_.advertiseService("plan", &Self::plan, this),
+  start_server_ = start_node_.advertiseService("start", &Self::start, this);
+  urgent_servers_ = {urgent_node_.advertiseService("pause", &Self::pause, this),
+                     urgent_node_.advertiseService("home", &Self::home, this),
+                     urgent_node_.advertiseService("estop", &Self::emergencyStop, this)};
+  servers_ = {node_.advertiseService("plan", &Self::plan, this),
               node_.advertiseService("go_to", &Self::goTo, this),
               node_.advertiseService("set_bounds", &Self::setBounds, this),
               node_.advertiseService("set_no_go_zones", &Self::setZones, this),
@@ -73,9 +85,26 @@ PlannerServices::PlannerServices(const ::ros::NodeHandle& private_node,
               node_.advertiseService("save", &Self::save, this),
               node_.advertiseService("load", &Self::load, this)};
   spinner_.start();
+  start_spinner_.start();
+  urgent_spinner_.start();
 }
 
-PlannerServices::~PlannerServices() { spinner_.stop(); }
+PlannerServices::~PlannerServices() {
+  urgent_spinner_.stop();
+  start_spinner_.stop();
+  spinner_.stop();
+}
+
+/// A robot that is to hold holds even while something long keeps the mission.
+mission::Answer PlannerServices::urgently(Urgent what) {
+  mission::Answer given;
+  const bool is_done = core_.tryWithFor(
+      kUrgentWait_s, [&](MissionCore& core) { given = core.frame.toCaller(carryOut(what, core)); });
+  if (is_done) return given;
+  urgent_.ask(what);
+  if (urgent_.holdsRobot()) hold_now_();
+  return waitingAnswer(what);
+}
 
 Rng PlannerServices::nextRng(const char* service) {
   return rng_.fork(service + std::string("/") + std::to_string(calls_++));
@@ -99,31 +128,18 @@ bool PlannerServices::start(Trigger::Request& /*request*/, Trigger::Response& re
 }
 
 bool PlannerServices::pause(Trigger::Request& /*request*/, Trigger::Response& response) {
-  return answering(response, &Trigger::Response::message, [&] {
-    answer(asked(core_,
-                 [](MissionCore& core) {
-                   core.wants_start = false;
-                   return core.mission.pause();
-                 }),
-           response);
-  });
+  return answering(response, &Trigger::Response::message,
+                   [&] { answer(urgently(Urgent::kPause), response); });
 }
 
 bool PlannerServices::home(Trigger::Request& /*request*/, Trigger::Response& response) {
-  return answering(response, &Trigger::Response::message, [&] {
-    answer(asked(core_, [](MissionCore& core) { return core.mission.home(); }), response);
-  });
+  return answering(response, &Trigger::Response::message,
+                   [&] { answer(urgently(Urgent::kHome), response); });
 }
 
 bool PlannerServices::emergencyStop(Trigger::Request& /*request*/, Trigger::Response& response) {
-  return answering(response, &Trigger::Response::message, [&] {
-    answer(asked(core_,
-                 [](MissionCore& core) {
-                   core.wants_start = false;
-                   return core.mission.emergencyStop();
-                 }),
-           response);
-  });
+  return answering(response, &Trigger::Response::message,
+                   [&] { answer(urgently(Urgent::kStop), response); });
 }
 
 bool PlannerServices::plan(Plan::Request& /*request*/, Plan::Response& response) {

@@ -33,4 +33,8 @@ std::optional<Eigen::Isometry3d> PoseTrack::nearest(double stamp_s) const {
   return at(std::clamp(stamp_s, poses_.front().stamp_s, poses_.back().stamp_s));
 }
 
+void PoseTrack::move(const Shift& shift) {
+  for (Stamped& pose : poses_) pose.T_world_base = moved(pose.T_world_base, shift);
+}
+
 }  // namespace spelunk::bridge

@@ -65,7 +65,8 @@ SimNode::SimNode(const ::ros::NodeHandle& node, const SimSetup& setup, const Sim
                                              ::ros::TransportHints().tcpNoDelay())),
       path_subscriber_(node_.subscribe("path", 5, &SimNode::onPath, this)),
       drive_subscriber_(node_.subscribe("cmd_vel", 5, &SimNode::onDrive, this,
-                                        ::ros::TransportHints().tcpNoDelay())) {
+                                        ::ros::TransportHints().tcpNoDelay())),
+      stand_subscriber_(node_.subscribe("command/stand", 5, &SimNode::onStand, this)) {
   if (params_.clock) clock_subscriber_ = node_.subscribe("/clock", 10, &SimNode::onClock, this);
   if (params_.clock) clock_ = node_.advertise<rosgraph_msgs::Clock>("/clock", 10);
   if (!frame_.isCallers())
@@ -207,6 +208,10 @@ void SimNode::onPath(const nav_msgs::Path::ConstPtr& message) {
   from_here.insert(from_here.begin(), state.pose);
   simulator_.follow(navigation::timed(from_here, limitsOf(robot_),
                                       {simulator_.time(), state.velocity, state.yaw_rate}));
+}
+
+void SimNode::onStand(const std_msgs::Bool::ConstPtr& message) {
+  simulator_.take(message->data ? Posture::kStand : Posture::kLie);
 }
 
 void SimNode::onDrive(const geometry_msgs::Twist::ConstPtr& message) {

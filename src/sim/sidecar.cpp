@@ -32,10 +32,11 @@ constexpr const char* kBounds =
 Json parsed(std::istream& stream, const std::filesystem::path& path) {
   try {
     return Json::parse(stream);
-  } catch (const Json::parse_error& error) {
+  } catch (const Json::exception& error) {  // a syntax error, or a number beyond all doubles
     const std::string text = error.what();  // "[json.exception.parse_error.101] parse error at ..."
     refuse(path, "is not valid JSON: " + text.substr(std::min(text.size(), text.find("] ") + 2)) +
-                     "; correct it there (a comma too many or missing, a quote left out)");
+                     "; correct it there (a comma too many or missing, a quote left out). " +
+                     kStart);
   }
 }
 

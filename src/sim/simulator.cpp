@@ -185,8 +185,15 @@ struct Simulator::Impl {
                   battery.isEmpty() ? Power::kOff : Power::kOn);
     ++steps;
     odometry.advance(vehicle->state());
+    correctOdometryBetween(time_s, timeAfter(steps));
     battery.draw(step_s, speed_mps);
     contacts.add(timeAfter(steps), step_s, vehicle->isInContact());
+  }
+
+  void correctOdometryBetween(double from_s, double to_s) {
+    for (const double at_s : params.odometry_jumps_s)
+      if (at_s > from_s && at_s <= to_s)
+        odometry.correct(params.odometry_jump_m, params.odometry_jump_deg * M_PI / 180.0);
   }
 
   void takeDueScans(std::vector<SimulatedScan>& scans) {
@@ -240,6 +247,10 @@ DriveAnswer Simulator::drive(const DriveCommand& command) {
   if (!answer.warning.empty()) ++impl_->reduced_drives;
   impl_->reference.drive(answer.executed, time());
   return answer;
+}
+
+void Simulator::take(Posture posture) {
+  if (impl_->walker != nullptr) impl_->walker->take(posture);
 }
 
 int Simulator::reducedDrives() const { return impl_->reduced_drives; }

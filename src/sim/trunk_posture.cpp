@@ -22,6 +22,7 @@ constexpr double kAnchorYaw_rad = 0.15;  ///< ... and the wanted heading.
 constexpr double kStoopMax_m = 0.12;     ///< So far the trunk lowers for a foot without a place ...
 constexpr double kStoop_mps = 1.0;       ///< ... so fast ...
 constexpr double kRise_mps = 0.2;        ///< ... and rises again.
+constexpr double kLyingGap_m = 0.07;     ///< Below the trunk: the ground is not that even.
 constexpr double kSidewaysMax_mps2 = 3.0;
 constexpr double kLiftMin = 0.3;  ///< Vertical force, shares of the weight.
 constexpr double kLiftMax = 2.0;
@@ -74,6 +75,7 @@ TrunkPosture::TrunkPosture(const WalkerParams& params, const BodyState& start,
       inertia_(trunkInertia(params)),
       stand_height_(params.stand_height_m),
       lowest_height_(0.5 * params.trunk_m.z() + 0.15),
+      lying_height_(0.5 * params.trunk_m.z() + kLyingGap_m),
       legs_(legsOf(params)),
       ground_(planeThrough(feet)),
       position_(start.position),
@@ -86,7 +88,7 @@ double TrunkPosture::wantedHeight(const BodyState& trunk, const FootPoints& feet
   double uneven = 0.0;
   for (const Vector3d& foot : feet)
     uneven = std::max(uneven, std::abs(foot.z() - ground_.heightAt(foot.head<2>())));
-  double height = plane + stand_height_ - uneven - stoop_;
+  double height = plane + stand_height_ - uneven - stoop_ - lowered_;
   for (std::size_t k = 0; k < kLegs; ++k) {
     const Vector3d root = trunk.orientation * legs_[k].root();
     const double aside = (trunk.position + root - feet[k]).head<2>().norm();
@@ -94,13 +96,16 @@ double TrunkPosture::wantedHeight(const BodyState& trunk, const FootPoints& feet
     const double stretch = std::sqrt(std::max(0.0, longest * longest - aside * aside));
     height = std::min(height, feet[k].z() + stretch - root.z());
   }
-  return std::max(height, plane + lowest_height_);
+  return std::max(height, plane + (lowered_ > 0.0 ? lying_height_ : lowest_height_));
 }
 
 void TrunkPosture::advance(double step_s, const BodyState& trunk, const DriveCommand& command,
                            const FootPoints& feet, Footing footing) {
   const double speed = footing == Footing::kWanting ? kStoop_mps : -kRise_mps;
   stoop_ = std::clamp(stoop_ + step_s * speed, 0.0, kStoopMax_m);
+  const double lower = wanted_ == Posture::kLie ? kRise_mps : -kRise_mps;
+  lowered_ =
+      std::clamp(lowered_ + step_s * lower, 0.0, std::max(0.0, stand_height_ - lying_height_));
   const GroundPlane seen = planeThrough(feet);
   const double share = std::min(1.0, step_s / kGroundLag);
   ground_.height = ground_.heightAt(seen.origin);

@@ -67,5 +67,38 @@ TEST(LocalFrame, MovesThePlacesThatASentenceNamesAndNothingElse) {
   EXPECT_EQ(LocalFrame().toCaller(text), text);
 }
 
+TEST(LocalFrame, StaysWithTheRobotWhenTheCallersFrameIsCorrected) {
+  const Pose before{{43.0, 2.0, 1.5}, 0.4};
+  const Pose after{{44.5, 3.0, 1.6}, 0.45};
+  const LocalFrame frame = LocalFrame().corrected(shiftBetween(before, after));
+  EXPECT_FALSE(frame.isCallers());
+  EXPECT_LT(distance(frame.toLocal(after), before), 1e-9);
+  EXPECT_NEAR(frame.toLocal(after).yaw, before.yaw, 1e-9);
+  const Path path{before, {{40.0, -3.0, 1.0}, -3.1}};
+  EXPECT_LT(distance(frame.toLocal(frame.toCaller(path)).back(), path.back()), 1e-9);
+  EXPECT_EQ(frame.toCaller(std::string("at (43.00, 2.00, 1.50)")), "at (44.50, 3.00, 1.60)");
+}
+
+TEST(LocalFrame, TakesTwoCorrectionsOneAfterTheOther) {
+  const Pose a{{1.0, 2.0, 3.0}, 0.1};
+  const Pose b{{1.5, 2.5, 3.0}, 0.2};
+  const Pose c{{0.5, 2.0, 3.1}, -0.3};
+  const LocalFrame frame =
+      LocalFrame(kUtm).corrected(shiftBetween(a, b)).corrected(shiftBetween(b, c));
+  EXPECT_LT(distance(frame.toLocal(c), LocalFrame(kUtm).toLocal(a)), 1e-6);
+  EXPECT_NEAR(frame.toLocal(c).yaw, a.yaw, 1e-9);
+}
+
+TEST(LocalFrame, KeepsBoundsParallelAndRightNearTheRobot) {
+  const Pose before{{43.0, 2.0, 1.5}, 0.4};
+  const Pose after{{44.5, 3.0, 1.6}, 0.45};
+  const LocalFrame frame = LocalFrame().corrected(shiftBetween(before, after));
+  const AxisAlignedBox box{{40.0, -kInfinity, 0.0}, {50.0, 6.0, 4.0}};
+  const AxisAlignedBox there = frame.toCaller(box);
+  EXPECT_LT((there.max - box.max - Eigen::Vector3d(1.5, 1.0, 0.1)).norm(), 1e-9);
+  EXPECT_EQ(there.min.y(), -kInfinity);
+  EXPECT_LT((frame.toLocal(there).max - box.max).norm(), 1e-9);
+}
+
 }  // namespace
 }  // namespace spelunk

@@ -156,5 +156,35 @@ TEST_F(MissionOnFoot, LoadedZonesStayTheRobotsOrPeoples) {
   EXPECT_EQ(next.zones()[0].name, "robot's");
 }
 
+TEST_F(MissionOnFoot, LiesDownAtAnEmergencyStopAndStandsUpBeforeItGoesOn) {
+  standFor(0.5, 0.0);
+  ASSERT_TRUE(mission_.start().accepted) << mission_.status().reason;
+  standFor(0.5, 0.0);
+  ASSERT_TRUE(mission_.emergencyStop().accepted);
+  const auto lie = mission_.tick(now_);
+  ASSERT_TRUE(lie);
+  EXPECT_TRUE(lie->path.empty());
+  EXPECT_EQ(lie->posture, Posture::kLie);
+  ASSERT_TRUE(mission_.start().accepted) << mission_.status().reason;
+  const auto stand = mission_.tick(now_);
+  ASSERT_TRUE(stand);
+  EXPECT_TRUE(stand->path.empty());
+  EXPECT_EQ(stand->posture, Posture::kStand);
+  standFor(2.0, 0.0);
+  EXPECT_FALSE(mission_.takeJob()) << "still on its way up";
+  standFor(3.0, 0.0);
+  EXPECT_TRUE(mission_.takeJob());
+}
+
+TEST_F(MissionOnFoot, TakesNoHomeWhileItLies) {
+  standFor(0.5, 0.0);
+  ASSERT_TRUE(mission_.emergencyStop().accepted);
+  const Answer lying = mission_.start();
+  EXPECT_FALSE(lying.accepted);
+  EXPECT_NE(lying.reason.find("stands up"), std::string::npos) << lying.reason;
+  standFor(0.5, 0.0);
+  EXPECT_TRUE(mission_.start().accepted) << mission_.status().reason;
+}
+
 }  // namespace
 }  // namespace spelunk::mission

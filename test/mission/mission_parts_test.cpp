@@ -99,5 +99,12 @@ TEST_F(BusyMission, TurningHomeIsUndoneOnlyWhenItsCauseIsGone) {
   }
 }
 
+TEST(RobotWatch, WaitsLongerForSensorsThatAreSlow) {
+  RobotModel robot = test::smallRobot();
+  EXPECT_DOUBLE_EQ(scanSilence(robot), 1.0);
+  robot.sensor_models.front().rate_hz = 0.2;
+  EXPECT_DOUBLE_EQ(scanSilence(robot), 15.0);
+}
+
 }  // namespace
 }  // namespace spelunk::mission

@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
+#include <string>
+
 #include "support/scripted_flight.h"
 #include "support/temporary_folder.h"
 
@@ -437,6 +440,85 @@ TEST_P(StartOnTheFloor, TakesOffExploresComesHomeAndLands) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Heights, StartOnTheFloor, testing::Values(0.12, 0.18));
+
+TEST_F(CorridorMission, StartAfterTheEndLeadsToOneEndMore) {
+  ScriptedFlight flight(test::corridorWorld(30.0), kStart, planner_);
+  ASSERT_TRUE(flight.start().accepted);
+  ASSERT_TRUE(flight.flyToTheEnd(120.0));
+  planner_.on_plan = [](const planners::PlanRequest&) {
+    return ScriptedPlanner::none(planners::PlanStatus::kNothingToGain);
+  };
+  int changes = 0;
+  for (int again = 0; again < 2; ++again) {
+    ASSERT_TRUE(flight.mission().start().accepted);
+    MissionState last = flight.mission().status().state;
+    for (int k = 0; k < 200; ++k) {
+      flight.step();
+      changes += flight.mission().status().state != last ? 1 : 0;
+      last = flight.mission().status().state;
+    }
+    EXPECT_EQ(last, MissionState::kDone);
+  }
+  EXPECT_LE(changes, 6);
+}
+
+TEST_F(CorridorMission, KnowsWhereItIsBetweenReportsThatComeSeldom) {
+  ScriptedFlight flight(test::corridorWorld(40.0), kStart, planner_);
+  flight.reportEvery(0.5);
+  ASSERT_TRUE(flight.start().accepted);
+  flight.flyFor(15.0);
+  EXPECT_EQ(flight.mission().status().replans_deviation, 0);
+  EXPECT_GT(flight.mission().status().distance_m, 5.0);
+}
+
+TEST_F(CorridorMission, FliesAsSlowlyAsReportsOfItsPlaceAreSlow) {
+  std::string said;
+  setLogSink([&](LogLevel, const std::string& text) { said += text + "\n"; });
+  ScriptedFlight flight(test::corridorWorld(40.0), kStart, planner_);
+  flight.reportEvery(1.2);
+  double fastest_mps = 0.0;
+  flight.flyFor(5.0);
+  ASSERT_TRUE(flight.start().accepted);
+  for (int k = 0; k < 150; ++k) {
+    flight.step();
+    fastest_mps = std::max(fastest_mps, flight.state().velocity.norm());
+  }
+  EXPECT_EQ(flight.mission().status().replans_deviation, 0);
+  EXPECT_GT(flight.mission().status().distance_m, 3.0);
+  EXPECT_LT(fastest_mps, 0.8 / 1.2 + 0.01);  // deviation_max_m in a period
+  EXPECT_NE(said.find("times a second or more often"), std::string::npos) << said;
+  setLogSink([](LogLevel, const std::string&) {});
+}
+
+TEST_F(CorridorMission, HoldsWhereTooFewRaysComeBackAndSaysHowMany) {
+  ScriptedFlight flight(test::corridorWorld(30.0), kStart, planner_);
+  ASSERT_TRUE(flight.start().accepted);
+  flight.flyFor(2.0);
+  flight.thinScans(2);
+  flight.flyFor(4.0);
+  EXPECT_EQ(flight.mission().status().state, MissionState::kHold);
+  EXPECT_NE(flight.mission().status().reason.find("too few returns to fly by: 2 of the 3600 rays"),
+            std::string::npos)
+      << flight.mission().status().reason;
+  const double x = flight.state().pose.position.x();
+  flight.flyFor(5.0);
+  EXPECT_EQ(flight.state().pose.position.x(), x);
+  flight.thinScans(std::numeric_limits<std::size_t>::max());
+  flight.flyFor(6.0);
+  EXPECT_EQ(flight.mission().status().state, MissionState::kExplore)
+      << flight.mission().status().reason;
+  EXPECT_GT(flight.state().pose.position.x(), x + 1.0);
+}
+
+TEST_F(CorridorMission, FliesOnWhereMostRaysMeetNothing) {
+  ScriptedFlight flight(test::corridorWorld(30.0), kStart, planner_);
+  ASSERT_TRUE(flight.start().accepted);
+  flight.flyFor(2.0);
+  flight.thinScans(360);  // a tenth of the rays: a wide hall, a portal
+  flight.flyFor(4.0);
+  EXPECT_EQ(flight.mission().status().state, MissionState::kExplore)
+      << flight.mission().status().reason;
+}
 
 }  // namespace
 }  // namespace spelunk::mission

@@ -224,5 +224,26 @@ TEST(ConvertStatus, EndReasonIsTheReasonOnceThereIsOne) {
   EXPECT_EQ(message.margin_s, 12.0);
 }
 
+TEST(Convert, FindsTheBaseFromTheOdometryOfACamera) {
+  // An optical frame: z ahead, x to the right; 0.3 m ahead of the base and 0.2 m above it.
+  Eigen::Isometry3d T_base_camera = Eigen::Isometry3d::Identity();
+  T_base_camera.translation() = Eigen::Vector3d(0.3, 0.0, 0.2);
+  T_base_camera.linear() << 0.0, 0.0, 1.0, -1.0, 0.0, 0.0, 0.0, -1.0, 0.0;
+  const Eigen::Isometry3d T_world_base =
+      Eigen::Translation3d(4.0, 5.0, 0.5) * Eigen::AngleAxisd(0.5, Eigen::Vector3d::UnitZ());
+  const Eigen::Isometry3d T_world_camera = T_world_base * T_base_camera;
+  RobotState camera;
+  camera.pose = poseOf(T_world_camera);
+  camera.orientation = Eigen::Quaterniond(T_world_camera.linear());
+  camera.yaw_rate = 1.0;
+  const Eigen::Vector3d lever = T_world_camera.translation() - T_world_base.translation();
+  camera.velocity = Eigen::Vector3d::UnitZ().cross(lever);  // the base turns on its place
+  const RobotState base = ofBase(camera, T_base_camera.inverse());
+  EXPECT_LT((base.pose.position - Eigen::Vector3d(4.0, 5.0, 0.5)).norm(), 1e-9);
+  EXPECT_NEAR(base.pose.yaw, 0.5, 1e-9);
+  EXPECT_NEAR((base.orientation * Eigen::Vector3d::UnitZ()).z(), 1.0, 1e-9);
+  EXPECT_LT(base.velocity.norm(), 1e-9);
+}
+
 }  // namespace
 }  // namespace spelunk::bridge

@@ -327,5 +327,20 @@ TEST(Walker, NamesImpossibleParameters) {
   EXPECT_NE(error.find("gallop"), std::string::npos) << error;
 }
 
+TEST(Walker, LiesDownAndStandsUpWithoutAFall) {
+  Simulator sim(SimParams(), test::walkerModel(), flatGround(), kStart, 1);
+  sim.advanceTo(1.0);
+  const double standing_m = sim.trueState().pose.position.z();
+  sim.take(Posture::kLie);
+  sim.advanceTo(5.0);
+  EXPECT_LT(sim.trueState().pose.position.z(), standing_m - 0.2);
+  EXPECT_LT(sim.trueState().velocity.norm(), 0.05);
+  sim.take(Posture::kStand);
+  sim.advanceTo(9.0);
+  EXPECT_NEAR(sim.trueState().pose.position.z(), standing_m, 0.02);
+  EXPECT_EQ(sim.walkerCount().falls, 0);
+  EXPECT_EQ(sim.collisions().episodes, 0);
+}
+
 }  // namespace
 }  // namespace spelunk::sim

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <functional>
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -132,6 +133,10 @@ class ScriptedFlight {
     scan_steps_ = static_cast<int>(std::lround(period_s / kStep_s));
   }
   void muteScans() { scans_ = false; }
+  /// No more than so many rays come back from now on, spread over all of them.
+  void thinScans(std::size_t points) { points_max_ = points; }
+  /// Odometry comes so seldom.
+  void reportEvery(double period_s) { report_period_s_ = period_s; }
   /// Nobody carries out what is commanded from now on, or somebody does again.
   void ignoreCommands() { obeys_ = false; }
   void obeyCommands() { obeys_ = true; }
@@ -164,9 +169,20 @@ class ScriptedFlight {
   }
   void sense() {
     state_.stamp_s = now_;
-    if (odometry_) mission_.onOdometry(state_);
+    if (odometry_ && now_ > next_report_s_ - 1e-6) {
+      mission_.onOdometry(state_);
+      next_report_s_ = now_ + report_period_s_;
+    }
     if (scans_ && ++senses_ % scan_steps_ == 1)
-      mission_.onScan(world_.scan(mission_.robot().sensor_models[0], state_.pose, now_));
+      mission_.onScan(thinned(world_.scan(mission_.robot().sensor_models[0], state_.pose, now_)));
+  }
+  [[nodiscard]] Scan thinned(Scan scan) const {
+    if (scan.points.size() <= points_max_) return scan;
+    const std::size_t step = scan.points.size() / points_max_;
+    std::vector<Eigen::Vector3f> kept;
+    for (std::size_t k = 0; kept.size() < points_max_; k += step) kept.push_back(scan.points[k]);
+    scan.points = std::move(kept);
+    return scan;
   }
   /// An emergency stop is taken as perfect: the tests look at what is commanded.
   void obey(const std::optional<mission::Command>& command) {
@@ -193,6 +209,9 @@ class ScriptedFlight {
   int scan_steps_ = 2;  ///< Cycles a scan.
   int collisions_ = 0;
   int commands_ = 0;
+  std::size_t points_max_ = std::numeric_limits<std::size_t>::max();
+  double report_period_s_ = 0.0;
+  double next_report_s_ = 0.0;
   bool odometry_ = true;
   bool scans_ = true;
   bool obeys_ = true;

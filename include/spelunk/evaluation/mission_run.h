@@ -92,12 +92,15 @@ struct Delays {
   double plan_s = 0.0;
   double scan_s = 0.0;
   double scan_loss = 0.0;
+  double odometry_period_s = 0.0;
 
   template <class Visitor>
   void visit(Visitor&& field) {
     field("plan_s", plan_s, Bounds{0.0, 60.0}, "a plan takes so long, simulated time");
     field("scan_s", scan_s, Bounds{0.0, 10.0}, "a scan enters the map so late");
     field("scan_loss", scan_loss, Bounds{0.0, 1.0}, "share of scans that never arrive");
+    field("odometry_period_s", odometry_period_s, Bounds{0.0, 10.0},
+          "between two odometry messages; 0: at every tick");
   }
 };
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "spelunk/common/path.h"
+#include "spelunk/common/posture.h"
 #include "spelunk/common/trajectory.h"
 #include "spelunk/planners/exploration_planner.h"
 
@@ -11,6 +12,7 @@ struct Command {
   Path path;              ///< Empty: stop and hold.
   Trajectory trajectory;  ///< The same path timed; empty with it.
   planners::PathKind kind = planners::PathKind::kLocal;
+  Posture posture = Posture::kStand;  ///< kLie only with an empty path.
 };
 
 }  // namespace spelunk::mission

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -45,8 +46,15 @@ class Flight {
   void fly(const Leg& leg, const Pose& here, double now_s);
   /// Goes back along `back`, which begins here, without turning.
   void goBack(const Path& back, const Pose& here, double now_s);
-  /// Stops, whatever was commanded before.
-  void stop();
+  /// Stops, whatever was commanded before. What is commanded next makes a robot with legs stand.
+  void stop(Posture posture = Posture::kStand);
+  [[nodiscard]] Posture posture() const { return posture_; }  ///< Of the newest command.
+  /// No path is flown faster from now on: the robot does not know often enough where it is.
+  void limitSpeed(double speed_mps) { speed_limit_mps_ = speed_mps; }
+  [[nodiscard]] MotionLimits limits() const;
+  /// Where a robot is now that was seen in a state some time ago: it has moved on as it was
+  /// commanded, or has braked.
+  [[nodiscard]] RobotState movedOn(const RobotState& seen, double now_s) const;
   /// The active path is at its end, or is to be replaced from a standstill.
   void drop() { active_.reset(); }
   /// Holds from now on; the time to settle begins anew.
@@ -70,9 +78,9 @@ class Flight {
   [[nodiscard]] bool hasArrived(const Pose& here, double now_s) const;
   /// Whether the path is over in time, and for some seconds more, without the robot at its end.
   [[nodiscard]] bool isOverdue(const Pose& here, double now_s) const;
-  /// Whether the robot has not moved at all since it was last sent off from a standstill, though it
-  /// should have: nobody carries out what is commanded.
-  [[nodiscard]] bool isIgnored(const Pose& here, double now_s) const;
+  /// Whether the robot was not `seen` to move at all since it was last sent off from a standstill,
+  /// though it should have: nobody carries out what is commanded.
+  [[nodiscard]] bool isIgnored(const Pose& seen, const Pose& here, double now_s) const;
   void noteOccupied(const std::vector<map::VoxelIndex>& voxels, double now_s);
   /// Metres to something new on the path before which the robot has to stop now; none if there is
   /// no such thing.
@@ -80,8 +88,11 @@ class Flight {
 
   /// The newest command, once.
   [[nodiscard]] std::optional<Command> takeCommand();
+  /// The rest of what is commanded, from now on.
+  [[nodiscard]] Command commandAgain(double now_s) const;
 
  private:
+  [[nodiscard]] Command ofBase(Command command) const;
   [[nodiscard]] bool isLate(const Pose& here, double now_s) const;
   [[nodiscard]] double nearestArc(const Pose& here, double now_s) const;
   [[nodiscard]] Trajectory smoothest(const Path& path, const navigation::MotionStart& start,
@@ -92,6 +103,8 @@ class Flight {
   SafeSpace& space_;
   std::optional<PathExecution> active_;
   std::optional<Command> command_;
+  Posture posture_ = Posture::kStand;
+  double speed_limit_mps_ = std::numeric_limits<double>::infinity();
   double hold_since_s_ = 0.0;
   double next_retime_s_ = 0.0;
   Eigen::Vector3d sent_from_ = Eigen::Vector3d::Zero();  ///< Where it last stood, sent off.

@@ -50,6 +50,10 @@ class Mission {
   /// What the owner knows about inputs that the mission cannot see; replaces what it said before.
   void noteInputs(const InputNotes& notes);
 
+  /// The frame of odometry was corrected: the command of now in it, to be sent again (see
+  /// MissionFrame); none if nothing was commanded yet.
+  [[nodiscard]] std::optional<Command> commandAgain(double now_s) const;
+
   // --- What people ask for.
   Answer start();
   Answer pause();

@@ -1,17 +1,16 @@
 #pragma once
 
-#include <Eigen/Core>
-
+#include "spelunk/common/moved.h"
 #include "spelunk/mission/answer.h"
 #include "spelunk/mission/command.h"
 #include "spelunk/mission/mission_status.h"
 
 namespace spelunk::mission {
 
-/// What a mission says, in a parallel frame: see spelunk::moved().
-[[nodiscard]] Answer moved(Answer answer, const Eigen::Vector3d& by);
-[[nodiscard]] Command moved(Command command, const Eigen::Vector3d& by);
-[[nodiscard]] GoToStatus moved(GoToStatus status, const Eigen::Vector3d& by);
-[[nodiscard]] MissionStatus moved(MissionStatus status, const Eigen::Vector3d& by);
+/// What a mission says, in another frame: see spelunk::moved().
+[[nodiscard]] Answer moved(Answer answer, const Shift& shift);
+[[nodiscard]] Command moved(Command command, const Shift& shift);
+[[nodiscard]] GoToStatus moved(GoToStatus status, const Shift& shift);
+[[nodiscard]] MissionStatus moved(MissionStatus status, const Shift& shift);
 
 }  // namespace spelunk::mission

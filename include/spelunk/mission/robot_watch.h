@@ -11,6 +11,10 @@
 
 namespace spelunk::mission {
 
+/// Sensors that are silent for longer have stopped, seconds: the fastest of them leaves out several
+/// scans.
+[[nodiscard]] double scanSilence(const RobotModel& robot);
+
 /// What the robot reports of itself, and whether that can be relied upon: odometry that is odd,
 /// late or silent, scans that are, and a fall. Poses are those of the centre of the robot's box
 /// unless they are called the base's. Times are mission time, seconds.
@@ -29,7 +33,15 @@ class RobotWatch {
 
   /// Whether there has been any good odometry; what follows asks for it first.
   [[nodiscard]] bool knowsPose() const { return input_.latest().has_value(); }
-  [[nodiscard]] const RobotState& state() const { return *input_.latest(); }
+  /// Now: as it was reported, moved on since by show().
+  [[nodiscard]] const RobotState& state() const { return shown_; }
+  [[nodiscard]] const RobotState& reported() const { return *input_.latest(); }
+  /// Where the robot is now, between two reports of odometry.
+  void show(const RobotState& state) { shown_ = state; }
+  /// Until then after the newest report it is known how the robot has moved on, mission time.
+  [[nodiscard]] double knownUntil() const;
+  /// Between two reports of odometry of late, seconds; 0 before the second one.
+  [[nodiscard]] double odometryPeriod() const { return odometry_period_s_; }
   [[nodiscard]] const Pose& pose() const { return state().pose; }
   [[nodiscard]] std::optional<Eigen::Vector3d> position() const;
   [[nodiscard]] Pose basePose() const;
@@ -49,6 +61,10 @@ class RobotWatch {
 
  private:
   void watchTilt(const RobotState& base);
+  void notePeriod(double stamp_s);
+  void countReturns(const Scan& scan);
+  [[nodiscard]] const SensorModel* modelOf(const Scan& scan) const;
+  [[nodiscard]] double odometrySilence() const;
 
   RobotModel robot_;
   InputGuard input_;
@@ -63,6 +79,11 @@ class RobotWatch {
   double newest_scan_s_ = 0.0;         ///< When it was taken.
   double newest_mapped_s_ = 0.0;       ///< The same of the newest one that was mapped.
   int mapped_scans_ = 0;
+  RobotState shown_;
+  std::optional<double> last_stamp_s_;  ///< Of good odometry.
+  double odometry_period_s_ = 0.0;
+  std::optional<double> few_since_s_;  ///< Too few rays come back from every sensor.
+  std::string few_text_;
   std::map<std::string, ScanThinning> thinnings_;  ///< By sensor.
   std::optional<double> tilted_since_s_;
   double tilted_for_s_ = 0.0;

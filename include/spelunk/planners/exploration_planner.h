@@ -9,6 +9,7 @@
 
 #include "spelunk/common/box.h"
 #include "spelunk/common/contract.h"
+#include "spelunk/common/moved.h"
 #include "spelunk/common/path.h"
 #include "spelunk/common/rng.h"
 #include "spelunk/map/frozen_map.h"
@@ -105,8 +106,8 @@ struct RemainingTarget {
   double gain_m3 = 0.0;
   std::string why;
 };
-/// The same in a parallel frame; places named in `why` included.
-[[nodiscard]] RemainingTarget moved(RemainingTarget target, const Eigen::Vector3d& by);
+/// The same in another frame; places named in `why` included.
+[[nodiscard]] RemainingTarget moved(RemainingTarget target, const Shift& shift);
 
 struct PlanResult {
   PlanStatus status = PlanStatus::kNoPath;
@@ -140,7 +141,7 @@ struct GraphLayer {
 struct PlannerGraph {
   std::vector<GraphLayer> layers;
 };
-[[nodiscard]] PlannerGraph moved(PlannerGraph graph, const Eigen::Vector3d& by);
+[[nodiscard]] PlannerGraph moved(PlannerGraph graph, const Shift& shift);
 
 /// The interface of every exploration planner. Proposing is apart from taking: plan() and
 /// planHome() change nothing that a later plan depends on, so anybody may look at a plan at any

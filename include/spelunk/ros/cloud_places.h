@@ -49,6 +49,9 @@ class CloudPlaces {
   void onOdometry(const std::string& frame, const std::string& base_frame, double stamp_s,
                   const Eigen::Isometry3d& T_world_base);
 
+  /// The world was corrected by tf: where the robot was before lies elsewhere in it.
+  void correct(const Shift& correction) { track_.move(correction); }
+
   /// `frame` without leading slashes. No place: it may be there later; `problem` holds the remedy.
   [[nodiscard]] FromMsg<CloudPlace> find(const std::string& frame, const ::ros::Time& stamp);
 

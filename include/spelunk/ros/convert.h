@@ -37,6 +37,8 @@ struct FromMsg {
 
 [[nodiscard]] geometry_msgs::Point toMsg(const Eigen::Vector3d& point);
 [[nodiscard]] geometry_msgs::Pose toMsg(const Pose& pose);
+/// The state of the base of a robot whose odometry is that of another frame on it (a camera's).
+[[nodiscard]] RobotState ofBase(const RobotState& child, const Eigen::Isometry3d& T_child_base);
 [[nodiscard]] nav_msgs::Path toMsg(const Path& path, const std::string& frame,
                                    const ::ros::Time& stamp);
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <chrono>
 #include <mutex>
 #include <utility>
 
@@ -19,6 +20,15 @@ class Guarded {
     return std::forward<F>(f)(value_);
   }
 
+  /// Runs `f` if the lock becomes free in time; tells whether it ran.
+  template <class F>
+  bool tryWithFor(double seconds, F&& f) {
+    const std::unique_lock lock(mutex_, std::chrono::duration<double>(seconds));
+    if (!lock) return false;
+    std::forward<F>(f)(value_);
+    return true;
+  }
+
   /// Runs `f` if the lock is free at once; tells whether it ran.
   template <class F>
   bool tryWith(F&& f) {
@@ -29,7 +39,7 @@ class Guarded {
   }
 
  private:
-  std::mutex mutex_;
+  std::timed_mutex mutex_;
   T value_;
 };
 

@@ -12,6 +12,7 @@
 #include "spelunk/common/local_frame.h"
 #include "spelunk/common/log.h"
 #include "spelunk/mission/mission.h"
+#include "spelunk/mission/mission_frame.h"
 #include "spelunk/ros/endurance_source.h"
 #include "spelunk/ros/guarded.h"
 #include "spelunk/ros/input_watch.h"
@@ -30,14 +31,17 @@ struct MissionCore {
       : make_mission(
             [=] { return mission::Mission(params, robot_model, map_params, seed, terrain); }),
         mission(make_mission()),
+        steady(robot_model, map_params.resolution_m),
         endurance(robot_model.endurance_s, time_limit_s),
         reach_m(reachOf(robot_model, time_limit_s)),
         range_m(map::keyRange(map_params)) {}
 
   std::function<mission::Mission()> make_mission;  ///< A new one, as at the node's start.
   mission::Mission mission;
-  LocalFrame frame;        ///< The world frame itself until `is_placed`.
-  bool is_placed = false;  ///< A robot was met, or a saved mission was taken up.
+  LocalFrame frame;              ///< The world frame itself until `is_placed`; that of `steady`.
+  mission::MissionFrame steady;  ///< Keeps it with the robot while odometry is corrected.
+  bool was_corrected = false;    ///< What is commanded is to be said again.
+  bool is_placed = false;        ///< A robot was met, or a saved mission was taken up.
   MissionClock clock;
   EnduranceSource endurance;
   double reach_m;  ///< See LocalFrame::around().

@@ -20,6 +20,7 @@ struct PlannerNodeParams {
   std::string share_dir;
   std::string launch_dir;
   std::string world_frame = "world";
+  std::string base_frame = "base_link";
   std::string frame_prefix;
   double silence_s = 3.0;
   double tick_rate_hz = 10.0;
@@ -41,6 +42,8 @@ struct PlannerNodeParams {
     field("launch_dir", launch_dir, Bounds{},
           "relative paths are seen from here, else from the node's working folder");
     field("world_frame", world_frame, Bounds{}, "fixed frame of map and paths", Audience::kUser);
+    field("base_frame", base_frame, Bounds{},
+          "the robot's base, found by tf where odometry is of another frame of the robot");
     field("frame_prefix", frame_prefix, Bounds{},
           "of the robot's frames, e.g. robot_1: robot_1/base_link (tf_prefix)", Audience::kUser);
     field("silence_s", silence_s, Bounds{0.2, 1000.0},

@@ -44,10 +44,14 @@ class PlannerInputs {
   void giveUp(const PendingClouds::Item& item, const ::ros::Time& now);
   void enter(const PendingClouds::Item& item);
   void sayIfCoarse(const sensor_msgs::PointCloud2& cloud, const CloudPlace& place);
-  void takeOver(const nav_msgs::Odometry& odometry, const RobotState& state);
+  [[nodiscard]] std::optional<Eigen::Isometry3d> findBaseIn(const std::string& child);
+  void takeOver(const nav_msgs::Odometry& odometry, const std::string& base_frame,
+                const RobotState& state, const Eigen::Isometry3d& T_world_frame);
   [[nodiscard]] bool comesTooLate(const ::ros::Time& stamp);
   [[nodiscard]] FromMsg<Eigen::Isometry3d> findTransform(const std::string& frame,
                                                          const ::ros::Time& stamp) const;
+  [[nodiscard]] FromMsg<Eigen::Isometry3d> findByOdometry(const std::string& frame,
+                                                          const ::ros::Time& stamp) const;
   /// Whether tf knows the frame at any time.
   [[nodiscard]] bool hasTransform(const std::string& frame) const;
   void reportSenders(TfInput::SentByTwo what, const std::string& text);
@@ -69,6 +73,9 @@ class PlannerInputs {
   std::optional<::ros::Time> first_used_;  ///< Stamp of a cloud.
   std::optional<::ros::Time> first_given_up_;
   ::ros::Time newest_odometry_;
+  std::string said_child_;      ///< The base is found from it.
+  std::string odometry_frame_;  ///< Of the newest odometry, and where it was used.
+  Eigen::Isometry3d T_world_odometry_ = Eigen::Isometry3d::Identity();
   int late_odometry_ = 0;  ///< Messages in a row that were older than one before.
   InputWatch::Wanted cloud_input_{};
   InputWatch::Wanted odometry_input_{};

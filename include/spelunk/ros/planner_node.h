@@ -18,6 +18,7 @@
 #include "spelunk/ros/planner_inputs.h"
 #include "spelunk/ros/planner_outputs.h"
 #include "spelunk/ros/planner_services.h"
+#include "spelunk/ros/urgent_requests.h"
 
 namespace spelunk::bridge {
 
@@ -51,6 +52,7 @@ class PlannerNode {
   void publishViews();
   [[nodiscard]] MissionView viewOf(MissionCore& core) const;
   void publish(MissionCore& core, const mission::Command& command);
+  void sayCommandAgain(MissionCore& core, double now_s);
 
   PlannerNodeParams params_;
   ::ros::NodeHandle node_;
@@ -66,6 +68,7 @@ class PlannerNode {
   ClockWatch clock_watch_;               ///< With the core locked.
   Throttle clock_throttle_;              ///< In real time; with the core locked.
   std::optional<double> waits_since_s_;  ///< To start; mission time; with the core locked.
+  UrgentRequests urgent_;
   PlanWorker worker_;
   PlannerInputs inputs_;
   PlannerServices services_;

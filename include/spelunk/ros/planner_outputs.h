@@ -50,9 +50,11 @@ class PlannerOutputs {
   void publishFrame(const LocalFrame& frame, const ::ros::Time& now);
 
   // --- In the world frame.
-  /// The path and the same path timed; empty ones say "stop and hold".
+  /// The path and the same path timed; empty ones say "stop and hold", and the posture how.
   void publishCommand(const mission::Command& command, const MissionClock& clock,
                       const ::ros::Time& now);
+  /// "Stop and hold", whatever the mission commands; from any thread.
+  void publishHold(const ::ros::Time& now);
   void publishStatus(const mission::MissionStatus& status, const std::string& input_problem,
                      const ::ros::Time& now);
   void publishGraph(const planners::PlannerGraph& graph, const ::ros::Time& now);
@@ -76,6 +78,7 @@ class PlannerOutputs {
   }
 
  private:
+  void publishPosture(Posture posture);
   /// The frame id of what is in a mission's frame.
   [[nodiscard]] const std::string& idOf(const LocalFrame& frame) const {
     return frame.isCallers() ? frame_ : local_frame_;
@@ -86,6 +89,7 @@ class PlannerOutputs {
   tf2_ros::StaticTransformBroadcaster broadcaster_;
   ::ros::Publisher path_;
   ::ros::Publisher trajectory_;
+  ::ros::Publisher stand_;
   ::ros::Publisher status_;
   ::ros::Publisher graph_;
   ::ros::Publisher markers_;
@@ -94,6 +98,7 @@ class PlannerOutputs {
   ::ros::Publisher traversability_;
   ::ros::Publisher octomap_;
   ::ros::Publisher octomap_full_;
+  std::optional<Posture> said_posture_;
   MarkerBuilder marker_builder_;
 };
 

@@ -4,6 +4,8 @@
 #include <deque>
 #include <optional>
 
+#include "spelunk/common/moved.h"
+
 namespace spelunk::bridge {
 
 /// Where the robot's base was of late, by odometry. Times are ROS time in seconds; not thread-safe.
@@ -21,6 +23,8 @@ class PoseTrack {
   /// The pose known nearest in time; none if there is no pose at all.
   [[nodiscard]] std::optional<Eigen::Isometry3d> nearest(double stamp_s) const;
 
+  /// Shifts all poses.
+  void move(const Shift& shift);
   void clear() { poses_.clear(); }
 
  private:

@@ -5,6 +5,7 @@
 #include <ros/message_event.h>
 #include <ros/node_handle.h>
 #include <rosgraph_msgs/Clock.h>
+#include <std_msgs/Bool.h>
 #include <tf2_ros/static_transform_broadcaster.h>
 #include <tf2_ros/transform_broadcaster.h>
 #include <trajectory_msgs/MultiDOFJointTrajectory.h>
@@ -51,6 +52,7 @@ class SimNode {
   void onClock(const ::ros::MessageEvent<rosgraph_msgs::Clock const>& event);
   void onTrajectory(const trajectory_msgs::MultiDOFJointTrajectory::ConstPtr& message);
   void onPath(const nav_msgs::Path::ConstPtr& message);
+  void onStand(const std_msgs::Bool::ConstPtr& message);
   void onDrive(const geometry_msgs::Twist::ConstPtr& message);
   void refuse(const std::string& what, const std::string& problem);
 
@@ -81,6 +83,7 @@ class SimNode {
   ::ros::Subscriber trajectory_subscriber_;
   ::ros::Subscriber path_subscriber_;
   ::ros::Subscriber drive_subscriber_;
+  ::ros::Subscriber stand_subscriber_;
   std::optional<WalkerOutputs> walker_outputs_;
 };
 

@@ -15,6 +15,11 @@ class Odometry {
   /// `drift` is metres (1 sigma) after one metre; the heading drifts a tenth of that, in radians.
   Odometry(double drift, double noise_m, const BodyState& start, const Rng& rng);
 
+  /// From now on poses are reported that differ from the ones before: moved by `by` metres here,
+  /// and turned about the robot. What lies behind is not told again, as with the loop closures of a
+  /// SLAM.
+  void correct(const Eigen::Vector3d& by, double yaw_rad);
+
   /// The body moved to `truth`.
   void advance(const BodyState& truth);
 
@@ -33,6 +38,7 @@ class Odometry {
   BodyState estimate_;
   Eigen::Vector3d noise_ = Eigen::Vector3d::Zero();
   double yaw_drift_rad_ = 0.0;
+  bool is_truth_ = true;  ///< As long as nothing was added to it.
 };
 
 }  // namespace spelunk::sim

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "spelunk/common/params.h"
+#include "spelunk/common/posture.h"
 #include "spelunk/common/robot_model.h"
 #include "spelunk/common/scan.h"
 #include "spelunk/common/trajectory.h"
@@ -35,7 +36,11 @@ struct SimParams {
   double self_returns_m = 0.0;            ///< Radius of a hoop around the robot that it sees.
   double odometry_drift = 0.0;            ///< Metres of drift a metre flown (1 sigma).
   double odometry_noise_m = 0.0;          ///< White noise of the position (1 sigma).
-  WalkerParams walker;                    ///< Body of a legged robot (section "walker").
+  /// When somebody's SLAM corrects the odometry (loop closures); 0: never.
+  Eigen::Vector3d odometry_jumps_s = Eigen::Vector3d::Zero();
+  Eigen::Vector3d odometry_jump_m = Eigen::Vector3d::Zero();  ///< By so much, each time.
+  double odometry_jump_deg = 0.0;                             ///< And turned about the robot.
+  WalkerParams walker;  ///< Body of a legged robot (section "walker").
 
   /// Broken rules between fields, one text each; empty if all is well. The walker's are apart.
   [[nodiscard]] std::vector<std::string> problems() const;
@@ -63,6 +68,11 @@ struct SimParams {
           "radius of a hoop of the robot, 0.1 m high, in the way of its sensors; 0: none");
     field("odometry_drift", odometry_drift, Bounds{0.0, 0.2}, "m a metre, 1 sigma");
     field("odometry_noise_m", odometry_noise_m, Bounds{0.0, 1.0}, "white, 1 sigma");
+    field("odometry_jumps_s", odometry_jumps_s, Bounds{0.0, 1e5},
+          "three times at which a SLAM corrects the odometry; 0: never");
+    field("odometry_jump_m", odometry_jump_m, Bounds{-100.0, 100.0}, "by so much, each time");
+    field("odometry_jump_deg", odometry_jump_deg, Bounds{-180.0, 180.0},
+          "and turned about the robot");
   }
 };
 
@@ -147,6 +157,10 @@ class Simulator {
   /// holds. What exceeds the robot's limits is reduced to them, said and counted. Throws
   /// Precondition if the command is not finite.
   DriveAnswer drive(const DriveCommand& command);
+  /// How a robot with legs waits from now on: one that lies down is to hold before. Others stay as
+  /// they are.
+  void take(Posture posture);
+
   [[nodiscard]] int reducedDrives() const;  ///< Drive commands above the limits so far.
 
   /// From now on only scans that enter a map are cast and returned (SensorModel::mapping_period_s):

@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <array>
 
+#include "spelunk/common/posture.h"
 #include "spelunk/sim/flight_controller.h"
 #include "spelunk/sim/force_distribution.h"
 #include "spelunk/sim/leg_kinematics.h"
@@ -44,6 +45,9 @@ class TrunkPosture {
   void advance(double step_s, const BodyState& trunk, const DriveCommand& command,
                const FootPoints& feet, Footing footing = Footing::kComplete);
 
+  /// Lies down, or stands up, from now on.
+  void take(Posture posture) { wanted_ = posture; }
+
   /// Force and torque that the feet must give: weight, feedback on posture and velocity.
   [[nodiscard]] TrunkWrench wrench(const BodyState& trunk) const;
 
@@ -56,9 +60,12 @@ class TrunkPosture {
   Eigen::Vector3d inertia_;
   double stand_height_;
   double lowest_height_;
+  double lying_height_;
   std::array<Leg, kLegs> legs_;
   GroundPlane ground_;
-  double stoop_ = 0.0;  ///< Below its usual height, metres.
+  double stoop_ = 0.0;    ///< Below its usual height, metres.
+  double lowered_ = 0.0;  ///< The same on the way to lying.
+  Posture wanted_ = Posture::kStand;
   Eigen::Vector3d position_;
   Eigen::Vector3d velocity_ = Eigen::Vector3d::Zero();
   double yaw_;

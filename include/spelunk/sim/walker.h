@@ -31,6 +31,8 @@ class Walker : public Vehicle {
   [[nodiscard]] bool isInContact() const override { return body_.isInContact(); }
   [[nodiscard]] Eigen::Vector3d bodySize() const override { return params_.trunk_m; }
 
+  void take(Posture posture) { posture_.take(posture); }
+
   [[nodiscard]] WalkerCount count() const {
     return {has_fallen_ ? 1 : 0, stepping_.slips(), stepping_.trips()};
   }
