@@ -132,6 +132,7 @@ class TwoFrontiers : public AnOpenPlain {
     query_.current = GlobalGraph::home();
     query_.remaining_s = 500.0;
     query_.speed_mps = 2.0;
+    params_.frontier_gain_m3 = 12.0;  // both promise more
     query_.frontier_gain_m3 = params_.frontier_gain_m3;
     query_.gain_at = [this](const Eigen::Vector3d& at) { return at.x() > 0.0 ? near_gain_ : 50.0; };
   }

@@ -15,14 +15,14 @@ inline constexpr double kMinorShare = 0.25;
 
 /// Parameters of GBPlanner (section "gbplanner"). Symbols of Dang 2020 in brackets.
 struct GbPlannerParams {
-  Eigen::Vector3d local_box_m{80.0, 80.0, 6.0};
-  int max_vertices = 300;
+  Eigen::Vector3d local_box_m{110.0, 110.0, 6.0};
+  int max_vertices = 500;
   int max_edges = 5000;
   double edge_length_min_m = 1.0;
   double edge_length_max_m = 6.0;
   double connection_radius_m = 5.0;
   int connections_max = 10;
-  double gain_threshold_m3 = 80.0;
+  double gain_threshold_m3 = 800.0;
   double similarity_weight = 0.012;
   double distance_weight = 0.02;
   double direction_window_s = 6.0;
@@ -30,13 +30,13 @@ struct GbPlannerParams {
   double local_length_max_m = 24.0;
   double path_spacing_m = 1.0;
   bool count_once = false;
-  bool count_cones = false;
-  double cone_depth_m = 1000.0;
-  double closing_height_m = 1.4;
+  bool count_cones = true;
+  double cone_depth_m = 10.0;
+  double closing_height_m = 2.0;
   double growth_m = 0.2;
   Eigen::Vector3d safety_margin_m{0.1, 0.1, 0.3};
   double tightness_cost = 2.0;
-  double frontier_gain_m3 = 12.0;
+  double frontier_gain_m3 = 150.0;
   double frontier_spacing_m = 3.0;
   double cluster_distance_m = 2.0;
   double global_distance_weight = 0.02;
