@@ -1,6 +1,7 @@
 #include "spelunk/common/robot_model.h"
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <set>
 
@@ -96,6 +97,15 @@ MotionLimits limitsOf(const RobotModel& robot) {
 double brakingDistance(const RobotModel& robot, double speed_mps) {
   return speed_mps * robot.reaction_time_s +
          0.5 * speed_mps * speed_mps / robot.braking_deceleration_mps2;
+}
+
+double narrowSpeed(const RobotModel& robot) {
+  const double margin = 0.5 * (kTightShare - kBodyShare) * robot.box_m.head<2>().minCoeff();
+  const double braking = robot.braking_deceleration_mps2;
+  const double reaction = braking * robot.reaction_time_s;
+  // brakingDistance(v) = margin
+  const double speed = std::sqrt(reaction * reaction + 2.0 * braking * margin) - reaction;
+  return std::min(speed, robot.speed_max_mps);
 }
 
 double reachOf(const RobotModel& robot, double time_limit_s) {

@@ -47,6 +47,7 @@ struct MissionRun::Impl {
         simulator(setup.sim, setup.robot, mesh, setup.start, setup.seed),
         mission(setup.mission, setup.robot, setup.map, setup.seed, setup.terrain),
         frame(setup.robot, setup.map.resolution_m),
+        promise(mission, simulator.scene(), simulator.bodySize()),
         bounds(boundsOf(run_setup, mesh)),
         self_returns(setup.robot, setup.map.range_min_m),
         reachable(reachableSpace(mesh, setup.start.position)),
@@ -71,6 +72,7 @@ struct MissionRun::Impl {
   void takeOutSelfReturns(Scan& scan);
   void plan();
   void takeOver();
+  void watchPromise();
   [[nodiscard]] bool getsLost();
   void measure();
   void follow(const std::optional<mission::Command>& command);
@@ -91,6 +93,7 @@ struct MissionRun::Impl {
   sim::Simulator simulator;
   mission::Mission mission;
   mission::MissionFrame frame;  ///< Its caller's frame is that of the simulated odometry.
+  PromiseWatch promise;
   AxisAlignedBox bounds;        ///< Of exploration.
   SelfReturns self_returns;
   ReachableSpace reachable;
@@ -211,11 +214,18 @@ void MissionRun::Impl::step() {
   follow(mission.tick(now()));
   plan();
   takeOver();
+  watchPromise();
   if (is_underway && mission.status().go_to.outcome != mission::GoToOutcome::kUnderway) noteLeg();
   const bool goes_on = !record.legs.empty() && !is_underway &&
                        record.legs.size() < setup.legs.size() && hasReachedAllLegs();
   if (goes_on && isHolding()) nextLeg();
   if (ticks % kTicksPerSecond == 0) addTimelineRow();
+}
+
+void MissionRun::Impl::watchPromise() {
+  const bool drifts = setup.sim.odometry_drift > 0.0 || setup.sim.odometry_noise_m > 0.0;
+  promise.look(now(), simulator.odometry().pose, simulator.trueState().velocity.norm(),
+               drifts ? PromiseWatch::Paths::kUnknownInTruth : PromiseWatch::Paths::kComparable);
 }
 
 void MissionRun::Impl::warmUp() {
@@ -324,6 +334,7 @@ void MissionRun::Impl::finish() {
   record.slips = simulator.walkerCount().slips;
   record.trips = simulator.walkerCount().trips;
   record.zones_marked = status.zones_marked;
+  record.promise = promise.record();
   record.returned_home = status.state == mission::MissionState::kDone;
   record.remaining_at_home_s = record.returned_home ? remaining() : 0.0;
   record.ended_as_it_may = record.returned_home && remaining() > 0.0;

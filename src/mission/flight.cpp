@@ -40,6 +40,12 @@ Path pathOf(const std::vector<Eigen::Vector3d>& points) {
   return path;
 }
 
+double lengthOf(const std::vector<navigation::SlowPiece>& pieces) {
+  double length = 0.0;
+  for (const navigation::SlowPiece& piece : pieces) length += piece.to_m - piece.from_m;
+  return length;
+}
+
 }  // namespace
 
 bool Flight::goesHome() const { return active_ && active_->kind() == PathKind::kHome; }
@@ -56,15 +62,20 @@ Trajectory Flight::smoothest(const Path& path, const navigation::MotionStart& st
                              const Eigen::Vector3d& box) {
   const MotionLimits limits = this->limits();
   map::ConfigurationSpace& space = space_.of(box);
+  const std::vector<navigation::SlowPiece> slow = space_.narrowPieces(path);
+  const double narrow_m = lengthOf(slow);
   for (const double tolerance : kCornerTolerances_m) {
-    Trajectory trajectory = navigation::timed(path, limits, start, tolerance);
+    Trajectory trajectory = navigation::timed(path, limits, start, tolerance, slow);
     Path line;
     for (const TrajectoryPoint& point : trajectory) line.push_back(point.pose);
     line = pathOf(navigation::straightened(line, kLineTolerance_m));
-    if (navigation::checkPath(space, line, space_.zones().all(), {}).isFree()) return trajectory;
+    if (navigation::checkPath(space, line, space_.zones().all(), {}).isFree() &&
+        lengthOf(space_.narrowPieces(line)) <= narrow_m)
+      return trajectory;
   }
   const bool is_tight = box.x() < robot_.box_m.x();
-  return navigation::timed(path, limits, start, is_tight ? kTightTolerance_m : kLeastTolerance_m);
+  return navigation::timed(path, limits, start, is_tight ? kTightTolerance_m : kLeastTolerance_m,
+                           slow);
 }
 
 void Flight::fly(const Leg& leg, const Pose& here, double now_s) {

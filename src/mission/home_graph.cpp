@@ -94,14 +94,20 @@ void HomeGraph::noteZone(const NoGoZone& zone) {
   }
 }
 
-void HomeGraph::noteOccupied(const std::vector<map::VoxelIndex>& voxels) {
+bool HomeGraph::noteOccupied(const std::vector<map::VoxelIndex>& voxels) {
+  bool has_changed = false;
   for (const auto& hit : swept_.touching(voxels)) {
     Edge& edge = edges_[hit.id];
     if (edge.state != EdgeState::kOpen) continue;
     setState(edge, edge.is_flown ? EdgeState::kTight : EdgeState::kCut);
     cut_.push_back(hit.id);
+    has_changed = true;
   }
-  for (const auto& hit : swept_tight_.touching(voxels)) setState(edges_[hit.id], EdgeState::kCut);
+  for (const auto& hit : swept_tight_.touching(voxels)) {
+    has_changed = has_changed || edges_[hit.id].state != EdgeState::kCut;
+    setState(edges_[hit.id], EdgeState::kCut);
+  }
+  return has_changed;
 }
 
 void HomeGraph::use(const std::shared_ptr<const map::FrozenMap>& map) {

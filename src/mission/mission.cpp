@@ -51,6 +51,8 @@ MissionStatus Mission::Impl::status() const {
   status.replans_obstacle = replans_obstacle;
   status.replans_deviation = replans_deviation;
   status.refused_paths = counts.refused_paths;
+  status.way_home_problem = way_home_problem;
+  if (flight.active()) status.clear_box_m = flight.active()->box();
   status.zones_marked = space.zones().markedCount();
   status.go_to = point.status();
   status.last_stats = counts.last_stats;

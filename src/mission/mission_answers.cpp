@@ -50,7 +50,7 @@ void Mission::Impl::acceptExploration(const RunningJob& job, const PlanOutcome& 
 
 /// `rest`: of the planner's path, beyond `path`; home from its end is known from there on.
 void Mission::Impl::flyProposal(const Path& path, const Path& rest, const PlanOutcome& outcome) {
-  fly(Leg(path, outcome.plan.kind, robot.box_m));
+  fly(Leg(space.withHeadroom(path, SafeSpace::PathEnd::kMoves), outcome.plan.kind, robot.box_m));
   way_home.noteRoute(rest, outcome.home);
   desk.noteAccepted(outcome.plan, now);
   reason = outcome.plan.reason;
@@ -58,7 +58,7 @@ void Mission::Impl::flyProposal(const Path& path, const Path& rest, const PlanOu
 
 void Mission::Impl::acceptSecondLook(const RunningJob& job, const PlanOutcome& outcome) {
   desk.noteSecondLook(outcome.plan, now);
-  const auto path = findAffordable(job, outcome, basis, now);
+  const auto path = findAffordable(job, outcome, basis, way_home, now);
   if (!path) return;
   const std::string why = "affordable again on the way home: " + outcome.plan.reason;
   happens(Event::kAffordableAgain, why);

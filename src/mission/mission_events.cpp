@@ -111,7 +111,15 @@ void Mission::Impl::launchHome() {
   happens(Event::kWayHomeBlocked, way_home.obstacle() + ": holding and looking for another");
 }
 
-void Mission::Impl::fly(const Leg& leg) {
+/// Whether the whole safety box stays clear along a leg.
+bool Mission::Impl::isFullBox(const Leg& leg) const {
+  return (leg.box.array() >= robot.box_m.array()).all();
+}
+
+void Mission::Impl::fly(const Leg& wanted) {
+  Leg leg = wanted;
+  if (task != Task::kTakeOff && task != Task::kLand)
+    leg.path = space.withHeadroom(leg.path, SafeSpace::PathEnd::kStays);
   flight.fly(leg, watch.pose(), now);
   way_home.refreshAt(now);
   desk.noteFlown();
@@ -123,7 +131,8 @@ void Mission::Impl::fly(const Leg& leg) {
     case PathKind::kReposition:
       return show(MissionState::kReposition, "repositioning");
     case PathKind::kHome:
-      return show(MissionState::kHome, "flying home");
+      return show(MissionState::kHome,
+                  isFullBox(leg) ? "flying home" : "flying home through a narrow place, slowly");
   }
 }
 

@@ -52,6 +52,7 @@ struct Mission::Impl {
   void hold(Event event, const std::string& why);
   void turnHome(Event event, Task before, const std::string& why);
   void fly(const Leg& leg);
+  [[nodiscard]] bool isFullBox(const Leg& leg) const;
   void launchHome();
   void standUp();
   void show(MissionState next, const std::string& why);
@@ -62,6 +63,7 @@ struct Mission::Impl {
   void updatePose();
   void updateEndurance();
   void updateWayHome();
+  void checkPromise();
   void checkInputs();
   void checkPath();
   void checkArrival();
@@ -123,6 +125,7 @@ struct Mission::Impl {
   MissionState shown = MissionState::kIdle;
   std::string reason;
   std::string end_reason;
+  std::string way_home_problem;
   int replans_obstacle = 0;
   int replans_deviation = 0;
   double last_map_update_ms = 0.0;

@@ -13,6 +13,7 @@ constexpr double kLookAgain_s = 1.0;  // some scans more of the ground ahead
 constexpr double kHomeRetry_s = 1.0;
 /// Before an ignored path is sent again: people need some time to see why it is.
 constexpr double kSendAgain_s = 2.0;
+constexpr const char* kNoWayIsClear = "no known way home is clear any more";
 constexpr const char* kIgnored =
     "the robot does not follow its path: is the controller connected to `path` or "
     "`command/trajectory`?";
@@ -52,7 +53,7 @@ void Mission::Impl::updatePose() {
   if (period_s <= 0.0) return;
   const double limit_mps = params.deviation_max_m / period_s;
   flight.limitSpeed(limit_mps);
-  if (limit_mps >= robot.speed_max_mps || !isRunning(task)) return;
+  if (limit_mps >= robot.speed_max_mps || !mission::isRunning(task)) return;
   char text[200];
   std::snprintf(text, sizeof text,
                 "odometry comes every %.2f s: the robot moves at %.2f m/s; for %.2g m/s send it "
@@ -65,13 +66,32 @@ void Mission::Impl::updatePose() {
 void Mission::Impl::updateEndurance() { endurance.update(now); }
 
 void Mission::Impl::updateWayHome() {
-  if (!way_home.isDue(now)) return;
-  if (task == Task::kHome && flight.active()) {
+  if (!way_home.isDue(now)) return checkPromise();  // endurance goes down between two looks
+  way_home.refreshAt(now + kRefreshPeriod_s);
+  if (task == Task::kHome && flight.active() && !flight.active()->blockedAt()) {
     way_home.followActive(now);
   } else if (watch.knowsPose() && !way_home.refresh(now)) {
-    happens(Event::kWayHomeLost, "no known way home is clear any more");
+    happens(Event::kWayHomeLost, kNoWayIsClear);
   }
-  way_home.refreshAt(now + kRefreshPeriod_s);
+  checkPromise();
+}
+
+/// Says so at once when the promise to come home cannot be kept, and when it can be again.
+void Mission::Impl::checkPromise() {
+  std::string problem;
+  if (mission::isRunning(task) && task != Task::kLand && !way_home.isAtHome()) {
+    const double needed_s = endurance.guard().pessimistic(way_home.travel_s());
+    if (!way_home.isClear())
+      problem = kNoWayIsClear;
+    else if (needed_s > endurance.guard().remaining())
+      problem = withNumber("the known way home takes %.0f s if all goes slowly", needed_s) +
+                withNumber(", %.0f s are left", endurance.guard().remaining());
+  }
+  if (problem.empty() == way_home_problem.empty()) return;
+  way_home_problem = problem;
+  if (!problem.empty())
+    return say(LogLevel::kWarn, "promise", "the way home is not sure: " + problem);
+  say(LogLevel::kInfo, "promise kept", "a way home is sure again");
 }
 
 void Mission::Impl::checkInputs() {

@@ -49,7 +49,7 @@ Verdict judge(const RunningJob& job, const PlanOutcome& outcome, const Basis& ba
 }
 
 std::optional<Path> findAffordable(const RunningJob& job, const PlanOutcome& outcome,
-                                   const Basis& basis, double now_s) {
+                                   const Basis& basis, const WayHome& way_home, double now_s) {
   const bool is_usable = outcome.plan.status == PlanStatus::kOk &&
                          outcome.home.status == PlanStatus::kOk && basis.flight.active() &&
                          job.isInTime(now_s);
@@ -58,8 +58,8 @@ std::optional<Path> findAffordable(const RunningJob& job, const PlanOutcome& out
       !basis.space.isClear(outcome.home.path, basis.robot.box_m))
     return std::nullopt;
   Path whole = basis.flight.joined(outcome.plan.path, job.takes_over_s, basis.watch.pose(), now_s);
-  const double there_s = navigation::travelTime(whole, basis.flight.limits());
-  const double home_s = navigation::travelTime(outcome.home.path, basis.flight.limits());
+  const double there_s = way_home.travelTime(whole);
+  const double home_s = way_home.travelTime(outcome.home.path);
   if (basis.endurance.guard().marginAfter(there_s, home_s) < 0.0) return std::nullopt;
   return whole;
 }

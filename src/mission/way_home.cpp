@@ -15,6 +15,9 @@ constexpr double kStampedSpacing_m = 1.0;
 constexpr double kWorthMerging = 0.8;
 constexpr double kMergeFrom_s = 20.0;
 constexpr double kMergePeriod_s = 10.0;
+/// A route begins at the very end of the path that it was noted for; a path that took over from
+/// that one ends elsewhere. Its end may be a little higher or lower, for headroom.
+constexpr double kSameEnd_m = 0.5;
 /// Steps in which a path is shortened until it can be afforded.
 constexpr double kCutStep_m = 1.0;
 
@@ -48,7 +51,7 @@ bool WayHome::noteOdometry() {
 }
 
 void WayHome::noteOccupied(const std::vector<map::VoxelIndex>& voxels, double now_s) {
-  if (graph_) graph_->noteOccupied(voxels);
+  if (graph_ && graph_->noteOccupied(voxels)) next_refresh_s_ = now_s;
   if (!route_ || !route_->monitor.firstHit(voxels)) return;
   route_.reset();
   next_refresh_s_ = now_s;
@@ -65,7 +68,7 @@ void WayHome::noteRoute(const Path& rest, const planners::PlanResult& home) {
 }
 
 double WayHome::travelTime(const Path& path) const {
-  return navigation::travelTime(path, basis_.flight.limits());
+  return navigation::travelTime(path, basis_.flight.limits(), basis_.space.narrowPieces(path));
 }
 
 std::optional<KnownWay> WayHome::wayByTrail() {
@@ -85,6 +88,7 @@ std::optional<KnownWay> WayHome::wayByRoute(double now_s) const {
   if (const auto& active = basis_.flight.active()) {
     if (active->blockedAt()) return std::nullopt;
     path = basis_.flight.rest(now_s);
+    if (distance(path.back(), route_->path.front()) > kSameEnd_m) return std::nullopt;
   } else {
     const Pose& here = basis_.watch.pose();
     if (distance(here, route_->path.front()) > kBeginsHere_m) return std::nullopt;
@@ -95,6 +99,7 @@ std::optional<KnownWay> WayHome::wayByRoute(double now_s) const {
 }
 
 void WayHome::followActive(double now_s) {
+  is_clear_ = true;
   way_ = basis_.flight.rest(now_s);
   way_s_ = basis_.flight.restTime(now_s);
 }
@@ -102,7 +107,8 @@ void WayHome::followActive(double now_s) {
 bool WayHome::refresh(double now_s) {
   const auto by_trail = wayByTrail();
   const auto by_route = wayByRoute(now_s);
-  if (!by_route && !by_trail) return false;
+  is_clear_ = by_route || by_trail;
+  if (!is_clear_) return false;
   const bool route_wins = by_route && (!by_trail || by_route->travel_s < by_trail->travel_s);
   const KnownWay& best = route_wins ? *by_route : *by_trail;
   way_ = best.path;
@@ -123,8 +129,10 @@ double WayHome::affordableLength(const Path& path, const std::optional<Path>& ho
   const EnduranceGuard& guard = basis_.endurance.guard();
   const double length = lengthOf(path);
   const double home_from_end_s = home_path ? travelTime(*home_path) : guard.remaining();
+  const auto slow = basis_.space.narrowPieces(path);
   for (double end = length; end > 0.0; end -= kCutStep_m) {
-    const double there_s = travelTime(slice(path, 0.0, end));
+    const double there_s =
+        navigation::travelTime(slice(path, 0.0, end), basis_.flight.limits(), slow);
     const double onward_s = home_from_end_s + (length - end) / basis_.robot.speed_max_mps;
     const double home_s = std::min(there_s + way_s_, onward_s);
     if (guard.marginAfter(there_s, home_s) >= 0.0) return end;

@@ -46,8 +46,10 @@ std::optional<Leg> WayHome::findLeg(double now_s) {
   SafeSpace& space = basis_.space;
   const Eigen::Vector3d& box = basis_.robot.box_m;
   auto by_trail = wayByTrail();
-  if (by_trail && kindOf(basis_.robot) == RobotKind::kAerial) {
-    by_trail->path = navigation::shortened(by_trail->path, space.of(box), kShortenReach_m);
+  if (by_trail) {
+    if (kindOf(basis_.robot) == RobotKind::kAerial)
+      by_trail->path = navigation::shortened(by_trail->path, space.of(box), kShortenReach_m);
+    by_trail->path = fromMotion(*by_trail, now_s);
     by_trail->travel_s = travelTime(by_trail->path);
   }
   const auto by_route = wayByRoute(now_s);
@@ -58,15 +60,17 @@ std::optional<Leg> WayHome::findLeg(double now_s) {
     return Leg(by_route->path, PathKind::kHome, box);
   for (const Eigen::Vector3d& each : {box, tightBox()})
     if (by_trail && space.isTrailClear(by_trail->path, each))
-      return Leg(fromMotion(*by_trail, now_s), PathKind::kHome, each);
+      return Leg(by_trail->path, PathKind::kHome, each);
   obstacle_ = whatBlocks();
   return std::nullopt;
 }
 
 bool WayHome::isWorthTheRisk(double travel_s, const std::optional<KnownWay>& known) {
   if (!known || !basis_.space.isTrailClear(known->path, tightBox())) return true;
-  const double left_s = basis_.endurance.guard().remaining();
-  return known->travel_s > left_s || known->travel_s + 2.0 * travel_s <= left_s;
+  const EnduranceGuard& guard = basis_.endurance.guard();
+  const double left_s = guard.remaining();
+  return guard.pessimistic(known->travel_s) > left_s ||
+         guard.pessimistic(known->travel_s + 2.0 * travel_s) <= left_s;
 }
 
 std::optional<Leg> WayHome::legOfSeenWay(const Path& whole, double now_s) {

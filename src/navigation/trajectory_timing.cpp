@@ -33,7 +33,21 @@ double accelerationAlong(const CurveSample& a, const CurveSample& b, double spee
   return std::sqrt(std::max(0.36 * limit * limit, limit * limit - sideways * sideways));
 }
 
-std::vector<double> speedCaps(const std::vector<CurveSample>& curve, const MotionLimits& limits) {
+/// Slow pieces by the arc of a curve, which cuts the corners of the path they are given on.
+std::vector<SlowPiece> onCurve(std::vector<SlowPiece> slow, const Path& path,
+                               const std::vector<CurveSample>& curve) {
+  const double length = lengthOf(path);
+  const double share = length > 0.0 ? curve.back().arc_m / length : 1.0;
+  for (SlowPiece& piece : slow) {
+    require(piece.speed_mps > 0.0, "timed: a slow piece has no speed");
+    piece.from_m *= share;
+    piece.to_m *= share;
+  }
+  return slow;
+}
+
+std::vector<double> speedCaps(const std::vector<CurveSample>& curve, const MotionLimits& limits,
+                              const std::vector<SlowPiece>& slow) {
   std::vector<double> caps;
   caps.reserve(curve.size());
   for (const CurveSample& sample : curve) {
@@ -41,6 +55,9 @@ std::vector<double> speedCaps(const std::vector<CurveSample>& curve, const Motio
     const double sideways = kSidewaysShare * limits.acceleration_mps2;
     double cap = limits.speed_mps;
     if (bend * cap * cap > sideways) cap = std::sqrt(sideways / bend);
+    for (const SlowPiece& piece : slow)
+      if (sample.arc_m >= piece.from_m && sample.arc_m <= piece.to_m)
+        cap = std::min(cap, piece.speed_mps);
     caps.push_back(sample.is_cusp ? 0.0 : cap);
   }
   caps.back() = 0.0;
@@ -57,8 +74,8 @@ double speedBeyond(const CurveSample& a, const CurveSample& b, double speed, dou
 /// Lowers each speed to what its neighbour allows, backward then forward. One that is not above its
 /// neighbour is allowed as it is.
 SpeedProfile profileOf(const std::vector<CurveSample>& curve, const MotionLimits& limits,
-                       double start_speed) {
-  SpeedProfile profile{speedCaps(curve, limits), {0.0}};
+                       const std::vector<SlowPiece>& slow, double start_speed) {
+  SpeedProfile profile{speedCaps(curve, limits, slow), {0.0}};
   profile.time_s.reserve(curve.size());
   std::vector<double>& v = profile.speed_mps;
   const double a = limits.acceleration_mps2;
@@ -213,13 +230,13 @@ void checkLimits(const MotionLimits& limits) {
 }  // namespace
 
 Trajectory timed(const Path& path, const MotionLimits& limits, const MotionStart& start,
-                 double corner_tolerance_m) {
+                 double corner_tolerance_m, const std::vector<SlowPiece>& slow) {
   require(!path.empty(), "timed: empty path");
   checkLimits(limits);
   const auto curve = roundedCurve(path, corner_tolerance_m, kCurveStep_m);
   const bool moves = curve.size() > 1;
   const double speed = moves ? std::max(0.0, start.velocity.dot(curve.front().tangent)) : 0.0;
-  const SpeedProfile profile = profileOf(curve, limits, speed);
+  const SpeedProfile profile = profileOf(curve, limits, onCurve(slow, path, curve), speed);
   const Eigen::Vector3d taken_up =
       moves ? Eigen::Vector3d(profile.speed_mps.front() * curve.front().tangent)
             : Eigen::Vector3d::Zero();
@@ -232,12 +249,13 @@ Trajectory timed(const Path& path, const MotionLimits& limits, const MotionStart
   return points;
 }
 
-double travelTime(const Path& path, const MotionLimits& limits) {
+double travelTime(const Path& path, const MotionLimits& limits,
+                  const std::vector<SlowPiece>& slow) {
   require(!path.empty(), "travelTime: empty path");
   checkLimits(limits);
   const auto curve = roundedCurve(path, kDefaultTolerance_m, kCurveStep_m);
   if (curve.size() < 2) return turnTime(turnOf(path), limits);
-  return profileOf(curve, limits, 0.0).time_s.back();
+  return profileOf(curve, limits, onCurve(slow, path, curve), 0.0).time_s.back();
 }
 
 }  // namespace spelunk::navigation

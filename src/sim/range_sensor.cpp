@@ -63,7 +63,7 @@ double RangeSensor::nextScanTime() const {
 std::optional<SimulatedScan> RangeSensor::scan(const MeshScene& scene,
                                                const Eigen::Isometry3d& T_world_base_true,
                                                const Eigen::Isometry3d& T_world_base_odometry,
-                                               double stamp_s) {
+                                               double stamp_s, const WorldEvents& events) {
   ++scans_taken_;
   if (thinning_ && !thinning_->takes(stamp_s)) return std::nullopt;
   SimulatedScan result;
@@ -76,6 +76,8 @@ std::optional<SimulatedScan> RangeSensor::scan(const MeshScene& scene,
     world_directions_[k].noalias() = turn * (*directions_)[k];
   scene.castFan(result.T_world_sensor_true.translation().cast<float>(), world_directions_,
                 result.range_max_m, result.true_ranges);
+  events.shorten(result.T_world_sensor_true.translation().cast<float>(), world_directions_,
+                 result.true_ranges);
   for (std::size_t k = 0; k < hoop_ranges_.size(); ++k)
     result.true_ranges[k] = std::min(result.true_ranges[k], hoop_ranges_[k]);
   result.scan.stamp_s = stamp_s;

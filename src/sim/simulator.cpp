@@ -12,6 +12,7 @@
 #include "spelunk/sim/range_sensor.h"
 #include "spelunk/sim/start_check.h"
 #include "spelunk/sim/walker.h"
+#include "spelunk/sim/world_events.h"
 
 namespace spelunk::sim {
 namespace {
@@ -150,6 +151,7 @@ struct Simulator::Impl {
                 robot),
         odometry(params.odometry_drift, params.odometry_noise_m, vehicle->state(),
                  Rng(seed).fork("sim/odometry")),
+        events(params.events),
         reference(start, robot.braking_deceleration_mps2) {
     for (const SensorModel& model : robot.sensor_models)
       sensors.emplace_back(model, params.dust_returns, Rng(seed).fork("sim/sensor"),
@@ -187,7 +189,10 @@ struct Simulator::Impl {
     odometry.advance(vehicle->state());
     correctOdometryBetween(time_s, timeAfter(steps));
     battery.draw(step_s, speed_mps);
-    contacts.add(timeAfter(steps), step_s, vehicle->isInContact());
+    const Eigen::Vector3d& position = vehicle->state().position;
+    events.update(timeAfter(steps), position);
+    contacts.add(timeAfter(steps), step_s,
+                 vehicle->isInContact() || events.touches(position, vehicle->bodySize()));
   }
 
   void correctOdometryBetween(double from_s, double to_s) {
@@ -201,7 +206,7 @@ struct Simulator::Impl {
     for (RangeSensor& sensor : sensors) {
       if (sensor.nextScanTime() > time_s + kTimeTolerance) continue;
       auto scan = sensor.scan(scene, toIsometry(vehicle->state()),
-                              toIsometry(odometry.measurement()), time_s);
+                              toIsometry(odometry.measurement()), time_s, events);
       if (scan) scans.push_back(std::move(*scan));
     }
   }
@@ -215,6 +220,7 @@ struct Simulator::Impl {
   Odometry odometry;
   ContactLog contacts;
   std::vector<RangeSensor> sensors;
+  WorldEvents events;
   MotionReference reference;
   int reduced_drives = 0;
   std::int64_t steps = 0;

@@ -109,10 +109,25 @@ TEST_F(SeenWayHome, IsNotReliedUponAtTheEndOfTheEndurance) {
   params.reserve_s = 2.0;
   params.reserve_percent = 0.0;
   ScriptedFlight flight(twoGalleries(), kStart, planner_, params);
-  constexpr double kThereAndBack_s = 38.0;  // along the trail; not enough to try another way first
+  constexpr double kThereAndBack_s = 41.0;  // along the trail; not enough to try another way first
   flight.setBudget(kThereAndBack_s);
   flyOut(flight, 6.0);
   EXPECT_TRUE(fliesBack(flight));
+}
+
+/// What is left is enough for the trail if nothing goes wrong on it, but not on pessimistic times:
+/// the way that the promise relies on has to be the one that is flown.
+TEST_F(SeenWayHome, IsFlownWhereTheTrailOnlyFitsIfNothingGoesWrong) {
+  MissionParams params;
+  params.reserve_s = 2.0;
+  params.reserve_percent = 0.0;
+  params.pessimism = 1.5;
+  ScriptedFlight flight(twoGalleries(), kStart, planner_, params);
+  flyOut(flight, 6.0);
+  constexpr double kTrailWithoutTrouble_s = 22.0;
+  flight.setBudget(flight.now() + kTrailWithoutTrouble_s);
+  EXPECT_FALSE(fliesBack(flight));
+  EXPECT_GT(flight.mission().status().remaining_s, params.reserve_s);
 }
 
 TEST_F(CutTrail, AskedHomeFromAStandstillItComesHomeAndSaysNothingByHalves) {

@@ -148,6 +148,44 @@ TEST(Simulator, StopsInBrakingDistance) {
   EXPECT_LT((sim.trueState().pose.position - stopped.pose.position).norm(), 0.1);
 }
 
+/// How far the tilted body reaches above or below `height_m` until `until_s`.
+double verticalReach(Simulator& sim, double height_m, double until_s) {
+  const Vector3d half = 0.5 * sim.bodySize();
+  double reach = 0.0;
+  while (sim.time() < until_s) {
+    sim.advanceTo(sim.time() + 0.01);
+    const RobotState state = sim.trueState();
+    const Eigen::RowVector3d up = state.orientation.toRotationMatrix().row(2);
+    const double body = up.cwiseAbs().dot(half);
+    reach = std::max(reach, std::abs(state.pose.position.z() - height_m) + body);
+  }
+  return reach;
+}
+
+/// A robot that starts or brakes tilts. At full speed its body stays within its box and the room
+/// to tilt above and below it: it does not touch the floor right below. At the speed of narrow
+/// places it hardly needs that room.
+TEST(Simulator, TiltedBodyStaysWithinWhatIsKeptClear) {
+  const std::string config = std::string(SPELUNK_SOURCE_DIR) + "/config";
+  ParamTree tree;
+  tree.addYamlFile(config + "/robots/aerial.yaml");
+  const RobotModel robot = loadRobot(tree, "aerial", config);
+  constexpr double kHardly = 0.3;
+  const double box_m = 0.5 * robot.box_m.z();
+  for (const double yaw : {0.0, 0.25 * M_PI})
+    for (const auto& [speed, kept_clear_m] :
+         {std::pair{robot.speed_max_mps, box_m + robot.tilt_room_m},
+          std::pair{narrowSpeed(robot), box_m + kHardly * robot.tilt_room_m}}) {
+      Simulator sim(SimParams{}, robot, hall(), {kStart.position, yaw}, 1);
+      Trajectory line = legs(0.0, {{0, 0, 2}, {12, 0, 2}}, speed, robot.acceleration_max_mps2);
+      for (TrajectoryPoint& point : line) point.pose.yaw = yaw;
+      sim.follow(line);
+      EXPECT_LE(verticalReach(sim, 2.0, 3.0), kept_clear_m) << "yaw " << yaw << ", " << speed;
+      sim.follow({});
+      EXPECT_LE(verticalReach(sim, 2.0, 5.0), kept_clear_m) << "yaw " << yaw << ", " << speed;
+    }
+}
+
 TEST(Simulator, FarReferenceIsFlownToWithoutTumbling) {
   Simulator sim(SimParams{}, RobotModel{}, hall(), kStart, 1);
   TrajectoryPoint target;

@@ -10,6 +10,10 @@
 
 namespace spelunk {
 
+/// The tight box's share of the safety box. It is used only where no known way home has room for
+/// more: half of the margin is left.
+inline constexpr double kTightShare = 0.75;
+
 enum class RobotKind { kAerial, kLegged };
 
 /// The body's share of the safety box: half of it is margin, on both sides together. Returns from
@@ -32,6 +36,7 @@ struct RobotModel {
   double braking_deceleration_mps2 = 2.5;        ///< What an emergency stop reaches for sure.
   double reaction_time_s = 0.3;                  ///< From a new obstacle seen to braking.
   double take_off_height_m = 1.0;                ///< Above where it stood; aerial only.
+  double tilt_room_m = 0.0;                      ///< Above and below its box; see narrowSpeed().
   double endurance_s = 900.0;                    ///< On a full battery, at cruising speed.
   std::vector<std::string> sensors{"lidar_16"};  ///< Names in config/sensors or paths.
   std::vector<SensorModel> sensor_models;        ///< Filled by loadRobot.
@@ -57,6 +62,8 @@ struct RobotModel {
     field("reaction_time_s", reaction_time_s, Bounds{0.0, 5.0}, "from seeing to braking");
     field("take_off_height_m", take_off_height_m, Bounds{0.1, 20.0},
           "climbs so high above where it stood before it flies on (aerial)");
+    field("tilt_room_m", tilt_room_m, Bounds{0.0, 2.0},
+          "a body that tilts to start and stop needs so much above and below the box at full speed");
     field("endurance_s", endurance_s, Bounds{1.0, 1e6},
           "how long a full battery lasts at cruising speed", Audience::kUser);
     field("sensors", sensors, Bounds{}, "names from config/sensors or paths of files",
@@ -88,6 +95,10 @@ struct RobotModel {
 
 /// Distance to a standstill from `speed_mps`, reaction time included.
 [[nodiscard]] double brakingDistance(const RobotModel& robot, double speed_mps);
+
+/// How fast a robot moves where its box has lost its margin (see kTightShare) or its body has no
+/// room to tilt: it comes to rest within the margin that is left, m/s.
+[[nodiscard]] double narrowSpeed(const RobotModel& robot);
 
 /// Reads "robot.*" and each of its sensors ("sensor.<name>.*") from `tree`; sensor files lie below
 /// values already in the tree. A sensor is a name from `config_dir`/sensors or, where that has no

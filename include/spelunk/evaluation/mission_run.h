@@ -8,6 +8,7 @@
 
 #include "spelunk/common/params.h"
 #include "spelunk/evaluation/explored_volume.h"
+#include "spelunk/evaluation/promise_watch.h"
 #include "spelunk/evaluation/reachable_volume.h"
 #include "spelunk/mission/mission.h"
 #include "spelunk/planners/exploration_planner.h"
@@ -70,6 +71,7 @@ struct RunRecord {
   int slips = 0;
   int trips = 0;
   int zones_marked = 0;
+  PromiseRecord promise;
   double remaining_at_home_s = 0.0;
   std::vector<TimelineRow> timeline;
   std::vector<PlanRow> plans;

@@ -9,6 +9,7 @@
 
 #include "spelunk/common/box.h"
 #include "spelunk/common/path.h"
+#include "spelunk/common/robot_model.h"
 #include "spelunk/graph/shortest_paths.h"
 #include "spelunk/graph/spatial_graph.h"
 #include "spelunk/map/configuration_space.h"
@@ -32,7 +33,7 @@ class HomeGraph {
             Footing footing = {});
 
   /// The box that flown edges are checked with in the last resort.
-  [[nodiscard]] static Eigen::Vector3d tightBox(const Eigen::Vector3d& box) { return 0.75 * box; }
+  [[nodiscard]] static Eigen::Vector3d tightBox(const Eigen::Vector3d& box) { return kTightShare * box; }
 
   /// Where the robot is; kept when half a metre from the last kept place.
   void addTrail(const Pose& pose);
@@ -41,8 +42,8 @@ class HomeGraph {
   /// Cuts for good the edges that meet a no-go zone, unless the robot itself came that way, and
   /// keeps later ones from meeting it.
   void noteZone(const NoGoZone& zone);
-  /// Cuts the edges that the box could not fly any more.
-  void noteOccupied(const std::vector<map::VoxelIndex>& voxels);
+  /// Cuts the edges that the box could not fly any more. True if there were such edges.
+  bool noteOccupied(const std::vector<map::VoxelIndex>& voxels);
   /// Tries shortcuts from the places added since the last call and takes up cut edges that are free
   /// again (some a call).
   void connect(const std::shared_ptr<const map::FrozenMap>& map);

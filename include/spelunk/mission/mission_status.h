@@ -50,6 +50,12 @@ struct MissionStatus {
   double remaining_s = 0.0;
   double way_home_s = 0.0;  ///< Pessimistic.
   double margin_s = 0.0;    ///< remaining - reserve - way home.
+  /// Why the promise to come home cannot be kept now (no known way is clear, or none fits what is
+  /// left), one sentence; empty while it holds. It does not end the mission: the robot goes on
+  /// looking for a way.
+  std::string way_home_problem;
+  /// Full extents of the box that stays clear along the active path; zero while it holds.
+  Eigen::Vector3d clear_box_m = Eigen::Vector3d::Zero();
   double distance_m = 0.0;
   int plans = 0;
   int replans_obstacle = 0;

@@ -30,6 +30,7 @@ struct Verdict {
 /// The path of a second look on the way home, from the robot on; none if it is not worth turning
 /// round: only what can be flown as a whole, with a known way home from its end, is.
 [[nodiscard]] std::optional<Path> findAffordable(const RunningJob& job, const PlanOutcome& outcome,
-                                                 const Basis& basis, double now_s);
+                                                 const Basis& basis, const WayHome& way_home,
+                                                 double now_s);
 
 }  // namespace spelunk::mission

@@ -10,6 +10,7 @@
 #include "spelunk/mission/home_graph.h"
 #include "spelunk/mission/zones.h"
 #include "spelunk/navigation/swept_path_check.h"
+#include "spelunk/navigation/trajectory_timing.h"
 
 namespace spelunk::mission {
 
@@ -50,6 +51,15 @@ class SafeSpace {
   }
   [[nodiscard]] navigation::PathCheck checkTrail(const Path& path, const Eigen::Vector3d& box);
 
+  /// Where along a path something is so near that the robot has to be slow: within the room that
+  /// its body needs to tilt at full speed, or within the margin of its box.
+  [[nodiscard]] std::vector<navigation::SlowPiece> narrowPieces(const Path& path);
+  /// The path with the room to tilt above and below it, where there is such room a little higher or
+  /// lower: the first waypoint stays, the last one too if `end` says so. Whatever cannot be moved
+  /// safely stays as it is.
+  enum class PathEnd { kStays, kMoves };
+  [[nodiscard]] Path withHeadroom(const Path& path, PathEnd end);
+
   /// Asks whether legs find footing between two places; empty for robots that fly.
   [[nodiscard]] HomeGraph::Footing footing() const;
   /// Whether legs find footing along a path; always for robots that fly.
@@ -58,6 +68,7 @@ class SafeSpace {
   [[nodiscard]] Contact contactAt(const Eigen::Vector3d& centre);
 
  private:
+  [[nodiscard]] map::ConfigurationSpace& roomy();
   [[nodiscard]] navigation::PathCheck checkLeaving(const Path& path, const Eigen::Vector3d& box,
                                                    const std::vector<NoGoZone>& zones,
                                                    const AxisAlignedBox& bounds);

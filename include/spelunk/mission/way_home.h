@@ -61,6 +61,8 @@ class WayHome {
   /// While the robot flies home, the way home is what it flies.
   void followActive(double now_s);
   [[nodiscard]] const Path& path() const { return way_; }
+  /// Whether it was clear when it was looked for last.
+  [[nodiscard]] bool isClear() const { return is_clear_; }
   [[nodiscard]] double travel_s() const { return way_s_; }
   /// remaining - reserve - pessimistic way home, seconds; negative: the invariant is broken.
   [[nodiscard]] double margin_s() const { return basis_.endurance.guard().margin(way_s_); }
@@ -68,6 +70,9 @@ class WayHome {
   /// or on along it and by `home_path` from its end, if there is one.
   [[nodiscard]] double affordableLength(const Path& path,
                                         const std::optional<Path>& home_path) const;
+
+  /// Time to fly a path from rest to rest, not pessimistic; its narrow places are flown slowly.
+  [[nodiscard]] double travelTime(const Path& path) const;
 
   // --- Flying home.
   /// How to fly home from here and now; none if all known ways are blocked: see obstacle().
@@ -107,7 +112,6 @@ class WayHome {
   [[nodiscard]] std::optional<Pose> findPlaceAtHome(const Eigen::Vector3d& box);
   [[nodiscard]] std::vector<Pose> placesOnTrail();
   [[nodiscard]] std::string whatBlocks();
-  [[nodiscard]] double travelTime(const Path& path) const;
   [[nodiscard]] Eigen::Vector3d tightBox() const { return HomeGraph::tightBox(basis_.robot.box_m); }
 
   Basis basis_;
@@ -116,6 +120,7 @@ class WayHome {
   std::optional<Route> route_;
   Path way_;
   double way_s_ = 0.0;
+  bool is_clear_ = true;
   double next_refresh_s_ = 0.0;
   double next_merge_s_ = 0.0;
   std::string obstacle_;

@@ -7,6 +7,7 @@
 #include "spelunk/common/rng.h"
 #include "spelunk/common/sensor_model.h"
 #include "spelunk/sim/mesh_scene.h"
+#include "spelunk/sim/world_events.h"
 #include "spelunk/sim/simulator.h"
 
 namespace spelunk::sim {
@@ -27,10 +28,12 @@ class RangeSensor {
   void castOnlyMapped() { thinning_.emplace(model_.mapping_period_s); }
 
   /// Takes the next scan; nothing if it is one that need not be cast. `T_world_base_true` places
-  /// the rays, `T_world_base_odometry` is what the robot believes.
+  /// the rays, `T_world_base_odometry` is what the robot believes. Rays end at the obstacles of
+  /// `events`, too.
   std::optional<SimulatedScan> scan(const MeshScene& scene,
                                     const Eigen::Isometry3d& T_world_base_true,
-                                    const Eigen::Isometry3d& T_world_base_odometry, double stamp_s);
+                                    const Eigen::Isometry3d& T_world_base_odometry, double stamp_s,
+                                    const WorldEvents& events = WorldEvents());
 
  private:
   std::vector<Eigen::Vector3f> disturbedPoints(const std::vector<float>& ranges,

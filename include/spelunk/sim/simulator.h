@@ -40,7 +40,8 @@ struct SimParams {
   Eigen::Vector3d odometry_jumps_s = Eigen::Vector3d::Zero();
   Eigen::Vector3d odometry_jump_m = Eigen::Vector3d::Zero();  ///< By so much, each time.
   double odometry_jump_deg = 0.0;                             ///< And turned about the robot.
-  WalkerParams walker;  ///< Body of a legged robot (section "walker").
+  std::vector<std::string> events;        ///< See WorldEvents.
+  WalkerParams walker;                    ///< Body of a legged robot (section "walker").
 
   /// Broken rules between fields, one text each; empty if all is well. The walker's are apart.
   [[nodiscard]] std::vector<std::string> problems() const;
@@ -73,6 +74,8 @@ struct SimParams {
     field("odometry_jump_m", odometry_jump_m, Bounds{-100.0, 100.0}, "by so much, each time");
     field("odometry_jump_deg", odometry_jump_deg, Bounds{-180.0, 180.0},
           "and turned about the robot");
+    field("events", events, Bounds{},
+          "what appears under way: 'fall T D', 'person T D': at T s, D m back on the robot's way");
   }
 };
 
