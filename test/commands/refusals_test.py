@@ -22,8 +22,8 @@ OVERRIDES = (
     ("out of range", "map: {resolution_m: 50}", ["map.resolution_m = 50", "[0.02, 2]"]),
     ("nested", "robot: {box_m: [[1, 2], [3, 4]]}", ["robot.box_m", "flat list"]),
     ("sensor missing", "robot: {sensors: [sonar]}", ["sonar.yaml", "config/sensors"]),
-    ("body above box", "robot: {box_m: [0.6, 0.6, 0.3]}",
-     ["robot.box_m = [0.6, 0.6, 0.3]", "sim.body_m = [0.7, 0.7, 0.3]"]),
+    ("body above box", "sim: {body_m: [1.2, 0.7, 0.3]}",
+     ["robot.box_m = [1.1, 1.1, 0.4]", "sim.body_m = [1.2, 0.7, 0.3]"]),
 )
 ROOM_CORNER = "-5.9,-3.9,0.1,0"
 
