@@ -94,7 +94,7 @@ struct MissionRun::Impl {
   mission::Mission mission;
   mission::MissionFrame frame;  ///< Its caller's frame is that of the simulated odometry.
   PromiseWatch promise;
-  AxisAlignedBox bounds;        ///< Of exploration.
+  AxisAlignedBox bounds;  ///< Of exploration.
   SelfReturns self_returns;
   ReachableSpace reachable;
   ExploredVolume explored;
@@ -224,7 +224,8 @@ void MissionRun::Impl::step() {
 
 void MissionRun::Impl::watchPromise() {
   const bool drifts = setup.sim.odometry_drift > 0.0 || setup.sim.odometry_noise_m > 0.0;
-  promise.look(now(), simulator.odometry().pose, simulator.trueState().velocity.norm(),
+  promise.look(now(), frame.now().toLocal(simulator.odometry().pose),
+               simulator.trueState().velocity.norm(),
                drifts ? PromiseWatch::Paths::kUnknownInTruth : PromiseWatch::Paths::kComparable);
 }
 

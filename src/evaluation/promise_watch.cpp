@@ -1,8 +1,8 @@
 #include "spelunk/evaluation/promise_watch.h"
 
 #include <algorithm>
-#include <cmath>
-#include <cstdio>
+
+#include "spelunk/common/message_text.h"
 
 namespace spelunk::evaluation {
 namespace {
@@ -62,10 +62,7 @@ void PromiseWatch::lookAtTruth(double now_s, const Path& way) {
   for (double arc = std::min(kTruthStart_m, length); arc < length; arc += kTruthStep_m) {
     const Eigen::Vector3d at = poseAt(way, arc).position;
     if (scene_.boxDistance(at, body_m_, kTruthStep_m) > 0.0) continue;
-    char place[96];
-    std::snprintf(place, sizeof place, "the way home leads through rock at (%.1f, %.1f, %.1f)",
-                  at.x(), at.y(), at.z());
-    return note(now_s, place);
+    return note(now_s, "the way home leads through rock at " + placeOf(at));
   }
 }
 
@@ -85,9 +82,7 @@ void PromiseWatch::note(double now_s, const std::string& what) {
   const auto kind = what.substr(0, what.find(" at ("));
   for (const std::string& fault : record_.faults)
     if (fault.find(kind) != std::string::npos) return;
-  char stamp[32];
-  std::snprintf(stamp, sizeof stamp, "%.1f s: ", now_s);
-  record_.faults.push_back(stamp + what);
+  record_.faults.push_back(withNumber("%.1f s: ", now_s) + what);
 }
 
 }  // namespace spelunk::evaluation

@@ -124,7 +124,7 @@ std::vector<double> planTimes(const RunRecord& record) {
   return times;
 }
 
-/// A record in a parallel frame.
+/// A record in another frame.
 RunRecord moved(RunRecord record, const Shift& shift) {
   using spelunk::moved;
   record.outcome = moved(record.outcome, shift);

@@ -8,8 +8,6 @@ namespace {
 
 using planners::PathKind;
 
-constexpr double kStandUp_s = 4.0;  // legs of any robot lift it in that time
-
 GoToOutcome pointOutcome(Event event) {
   if (event == Event::kPointReached) return GoToOutcome::kReached;
   return event == Event::kPointUnreachable ? GoToOutcome::kUnreachable : GoToOutcome::kAborted;
@@ -61,7 +59,7 @@ void Mission::Impl::standUp() {
   if (flight.posture() == Posture::kStand) return;
   flight.stop();
   flight.holdFrom(now);
-  resume_s = now + kStandUp_s;
+  resume_s = now + robot.stand_up_s;
 }
 
 /// The one place where a task ends: each part forgets what it was about to do for it. The motion

@@ -13,6 +13,7 @@
 #include "spelunk/map/occupancy_map.h"
 #include "spelunk/planners/factory.h"
 #include "support/meshes.h"
+#include "support/short_sighted_setup.h"
 #include "support/temporary_folder.h"
 
 namespace spelunk::evaluation {
@@ -25,8 +26,7 @@ const Eigen::Vector3d kMineGrid(6000.0, 3000.0, 100.0);
 
 /// A room with a pillar as OBJ and sidecar, moved by `by`, every number with three decimals.
 std::string writeRoom(const TemporaryFolder& folder, const Eigen::Vector3d& by) {
-  sim::WorldMesh room = test::boxRoom({20.2F, 8.3F, 4.1F});
-  test::addBox(room, {1.3F, -0.7F, 0.0F}, {2.4F, 0.6F, 4.1F});
+  const sim::WorldMesh room = test::roomWithPillar();
   std::string text;
   char line[128];
   for (const Eigen::Vector3f& vertex : room.vertices) {
@@ -53,17 +53,8 @@ map::MapParams mapParams() {
 }
 
 RunSetup setupFor(const sim::WorldMesh& mesh) {
-  RunSetup setup;
-  SensorModel sensor;
-  sensor.rows = 16;
-  sensor.columns = 360;
-  sensor.range_max_m = 8.0;
-  sensor.gain_range_m = 8.0;
-  setup.robot.sensor_models = {sensor};
+  RunSetup setup = test::shortSightedSetup(*mesh.start, 40.0);
   setup.map = mapParams();
-  setup.start = *mesh.start;
-  setup.time_limit_s = 40.0;
-  setup.seed = 3;
   return setup;
 }
 

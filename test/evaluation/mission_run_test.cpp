@@ -11,25 +11,13 @@
 #include "spelunk/evaluation/run_report.h"
 #include "spelunk/planners/factory.h"
 #include "support/meshes.h"
+#include "support/short_sighted_setup.h"
 #include "support/temporary_folder.h"
 
 namespace spelunk::evaluation {
 namespace {
 
-RunSetup roomSetup() {
-  RunSetup setup;
-  SensorModel sensor;
-  sensor.rows = 16;
-  sensor.columns = 360;
-  sensor.range_max_m = 8.0;  // the room has to be flown through to be seen
-  sensor.gain_range_m = 8.0;
-  setup.robot.sensor_models = {sensor};
-  setup.map.range_max_m = 8.0;
-  setup.start = {{-10.0, 0.0, 1.5}, 0.0};
-  setup.time_limit_s = 60.0;
-  setup.seed = 3;
-  return setup;
-}
+RunSetup roomSetup() { return test::shortSightedSetup({{-10.0, 0.0, 1.5}, 0.0}, 60.0); }
 
 RunRecord flyRoom(const RunSetup& setup) {
   setLogSink([](LogLevel, const std::string&) {});

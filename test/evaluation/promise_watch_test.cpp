@@ -8,25 +8,13 @@
 #include "spelunk/evaluation/mission_run.h"
 #include "spelunk/planners/factory.h"
 #include "support/meshes.h"
+#include "support/short_sighted_setup.h"
 
 namespace spelunk::evaluation {
 namespace {
 
 /// A robot that sees 8 m in a gallery of 60 x 8 x 4 m, near its west end.
-RunSetup gallerySetup() {
-  RunSetup setup;
-  SensorModel sensor;
-  sensor.rows = 16;
-  sensor.columns = 360;
-  sensor.range_max_m = 8.0;
-  sensor.gain_range_m = 8.0;
-  setup.robot.sensor_models = {sensor};
-  setup.map.range_max_m = 8.0;
-  setup.start = {{-26.0, 0.0, 1.5}, 0.0};
-  setup.time_limit_s = 120.0;
-  setup.seed = 3;
-  return setup;
-}
+RunSetup gallerySetup() { return test::shortSightedSetup({{-26.0, 0.0, 1.5}, 0.0}, 120.0); }
 
 struct Flown {
   RunRecord record;

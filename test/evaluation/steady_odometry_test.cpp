@@ -7,30 +7,14 @@
 #include "spelunk/map/occupancy_map.h"
 #include "spelunk/planners/factory.h"
 #include "support/meshes.h"
+#include "support/short_sighted_setup.h"
 
 namespace spelunk::evaluation {
 namespace {
 
-/// A room with a pillar that is explored in half a minute.
-sim::WorldMesh roomWithPillar() {
-  sim::WorldMesh room = test::boxRoom({20.2F, 8.3F, 4.1F});
-  test::addBox(room, {1.3F, -0.7F, 0.0F}, {2.4F, 0.6F, 4.1F});
-  return room;
-}
-
 RunSetup roomSetup() {
-  RunSetup setup;
-  SensorModel sensor;
-  sensor.rows = 16;
-  sensor.columns = 360;
-  sensor.range_max_m = 8.0;
-  sensor.gain_range_m = 8.0;
-  setup.robot.sensor_models = {sensor};
+  RunSetup setup = test::shortSightedSetup({{-7.3, 0.4, 1.7}, 0.1}, 90.0);
   setup.map.resolution_m = 0.15;
-  setup.map.range_max_m = 8.0;
-  setup.start = {{-7.3, 0.4, 1.7}, 0.1};
-  setup.time_limit_s = 90.0;
-  setup.seed = 3;
   return setup;
 }
 
@@ -42,7 +26,7 @@ struct Flown {
 
 Flown fly(const RunSetup& setup) {
   setLogSink([](LogLevel, const std::string&) {});
-  const sim::WorldMesh mesh = roomWithPillar();
+  const sim::WorldMesh mesh = test::roomWithPillar();
   ParamTree tree;
   const auto planner =
       planners::makePlanner("gbplanner", tree, setup.robot, setup.map.resolution_m);

@@ -77,6 +77,13 @@ inline sim::WorldMesh boxRoom(const Eigen::Vector3f& size_m) {
   return mesh;
 }
 
+/// A room of 20.2 x 8.3 x 4.1 m with a pillar, which is explored in half a minute.
+inline sim::WorldMesh roomWithPillar() {
+  sim::WorldMesh room = boxRoom({20.2F, 8.3F, 4.1F});
+  addBox(room, {1.3F, -0.7F, 0.0F}, {2.4F, 0.6F, 4.1F});
+  return room;
+}
+
 /// A corridor from x = 0 to `length_m` (walls at y = +-width/2, ceiling at 3 m) with a square
 /// pillar of 0.5 m halfway.
 inline sim::WorldMesh corridorWithPillar(float length_m, float width_m) {

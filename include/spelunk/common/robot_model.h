@@ -36,6 +36,7 @@ struct RobotModel {
   double braking_deceleration_mps2 = 2.5;        ///< What an emergency stop reaches for sure.
   double reaction_time_s = 0.3;                  ///< From a new obstacle seen to braking.
   double take_off_height_m = 1.0;                ///< Above where it stood; aerial only.
+  double stand_up_s = 4.0;                       ///< From lying to standing; legged only.
   double tilt_room_m = 0.0;                      ///< Above and below its box; see narrowSpeed().
   double endurance_s = 900.0;                    ///< On a full battery, at cruising speed.
   std::vector<std::string> sensors{"lidar_16"};  ///< Names in config/sensors or paths.
@@ -62,8 +63,11 @@ struct RobotModel {
     field("reaction_time_s", reaction_time_s, Bounds{0.0, 5.0}, "from seeing to braking");
     field("take_off_height_m", take_off_height_m, Bounds{0.1, 20.0},
           "climbs so high above where it stood before it flies on (aerial)");
-    field("tilt_room_m", tilt_room_m, Bounds{0.0, 2.0},
-          "a body that tilts to start and stop needs so much above and below the box at full speed");
+    field("stand_up_s", stand_up_s, Bounds{0.0, 60.0},
+          "waits so long for its legs to lift it before it walks (legged)");
+    field(
+        "tilt_room_m", tilt_room_m, Bounds{0.0, 2.0},
+        "a body that tilts to start and stop needs so much above and below the box at full speed");
     field("endurance_s", endurance_s, Bounds{1.0, 1e6},
           "how long a full battery lasts at cruising speed", Audience::kUser);
     field("sensors", sensors, Bounds{}, "names from config/sensors or paths of files",

@@ -28,9 +28,11 @@ class PromiseWatch {
                const Eigen::Vector3d& body_m)
       : mission_(mission), scene_(scene), body_m_(body_m) {}
 
-  /// To be called after a tick. `true_pose`, `true_speed_mps`: of the robot's base. Where poses and
-  /// truth drift apart the mesh says nothing about paths: `paths` is kUnknownInTruth then.
+  /// Whether the mission's poses are those of the mesh: where odometry drifts the mesh says nothing
+  /// about paths.
   enum class Paths { kComparable, kUnknownInTruth };
+  /// To be called after a tick. `pose`: of the robot's base as odometry has it, in the mission's
+  /// frame; `true_speed_mps`: of the body.
   void look(double now_s, const Pose& pose, double true_speed_mps, Paths paths);
 
   [[nodiscard]] const PromiseRecord& record() const { return record_; }

@@ -33,7 +33,9 @@ class HomeGraph {
             Footing footing = {});
 
   /// The box that flown edges are checked with in the last resort.
-  [[nodiscard]] static Eigen::Vector3d tightBox(const Eigen::Vector3d& box) { return kTightShare * box; }
+  [[nodiscard]] static Eigen::Vector3d tightBox(const Eigen::Vector3d& box) {
+    return kTightShare * box;
+  }
 
   /// Where the robot is; kept when half a metre from the last kept place.
   void addTrail(const Pose& pose);

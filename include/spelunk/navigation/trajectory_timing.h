@@ -24,8 +24,8 @@ struct SlowPiece {
 /// The path timed within the limits: speed along it rises and falls with bounded acceleration,
 /// slows where the line bends (so that the robot stays within `corner_tolerance_m` of it) and where
 /// the heading has to turn, and ends at rest. Starts with the part of `start.velocity` along the
-/// path. The heading looks along the direction of motion. Throws Precondition for an empty path or a
-/// slow piece without speed.
+/// path. The heading looks along the direction of motion. Throws Precondition for an empty path or
+/// a slow piece without speed.
 [[nodiscard]] Trajectory timed(const Path& path, const MotionLimits& limits,
                                const MotionStart& start, double corner_tolerance_m = 0.1,
                                const std::vector<SlowPiece>& slow = {});

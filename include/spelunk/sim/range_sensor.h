@@ -7,8 +7,8 @@
 #include "spelunk/common/rng.h"
 #include "spelunk/common/sensor_model.h"
 #include "spelunk/sim/mesh_scene.h"
-#include "spelunk/sim/world_events.h"
 #include "spelunk/sim/simulator.h"
+#include "spelunk/sim/world_events.h"
 
 namespace spelunk::sim {
 

@@ -40,8 +40,8 @@ struct SimParams {
   Eigen::Vector3d odometry_jumps_s = Eigen::Vector3d::Zero();
   Eigen::Vector3d odometry_jump_m = Eigen::Vector3d::Zero();  ///< By so much, each time.
   double odometry_jump_deg = 0.0;                             ///< And turned about the robot.
-  std::vector<std::string> events;        ///< See WorldEvents.
-  WalkerParams walker;                    ///< Body of a legged robot (section "walker").
+  std::vector<std::string> events;                            ///< See WorldEvents.
+  WalkerParams walker;  ///< Body of a legged robot (section "walker").
 
   /// Broken rules between fields, one text each; empty if all is well. The walker's are apart.
   [[nodiscard]] std::vector<std::string> problems() const;

@@ -37,10 +37,10 @@ class WorldEvents {
     bool walks = false;
     double from_s = 0.0;
     double behind_m = 0.0;
-    AxisAlignedBox box;       ///< Around the origin where it is to lie behind the robot.
+    AxisAlignedBox box;  ///< Around the origin where it is to lie behind the robot.
     bool is_placed = false;
     bool is_there = false;
-    double arc_m = 0.0;       ///< Where on the robot's way it is.
+    double arc_m = 0.0;  ///< Where on the robot's way it is.
   };
   static Event eventFrom(const std::string& text);
   void appear(Event& event, const Eigen::Vector3d& robot_at);

@@ -27,7 +27,8 @@ using Problems = std::vector<std::string>;
 /// sensors keeps it.
 [[nodiscard]] double passableThreshold(double threshold_m3, double share, const RobotModel& robot);
 
-/// Shares of a look that are worth a path, and a place.
+/// Shares of a look: half of one is unknown at the border of what was seen, so a path past a border
+/// can promise that; a place beside rock sees far less. Lower thresholds than these stay.
 inline constexpr double kPathShare = 0.5;
 inline constexpr double kPlaceShare = 0.1;
 
